@@ -1,0 +1,153 @@
+"""Positive real roots of many small polynomials at once.
+
+A polynomial is an array of coefficients of x^0, x^1, … along the first axis, cells behind it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bikestab.model import Floats
+
+_CHUNK = 1 << 13  # cells worked on at a time: a polynomial of degree 6 and its temporaries fit the L2 cache
+_CLOSE = 1e-13  # last relative step to a root; Newton's next one would be far below rounding
+_CLOSE_SLOPE = 1e-6  # the same for an extremum, whose value depends on its place only to second order
+
+
+def positive_roots(coefficients: Floats) -> Floats:
+    """The positive x at which each polynomial changes sign, ascending, NaN behind the last.
+
+    ``coefficients`` has shape (n + 1, *shape); the result (m, *shape), where m ≤ n is the largest
+    number of roots in any cell. Roots of even multiplicity change no sign and are left out, so the sign
+    between two roots follows from the sign near zero. Zero is no positive root.
+    """
+    shape = coefficients.shape[1:]
+    c = coefficients.reshape(len(coefficients), -1)
+    out = np.full((max(len(c) - 1, 1), c.shape[1]), np.nan)
+    for start in range(0, c.shape[1], _CHUNK):
+        part = slice(start, start + _CHUNK)
+        found = _solve(c[:, part])
+        out[: len(found), part] = found
+    most = int(np.isfinite(out).any(axis=1).sum())
+    return out[:most].reshape(most, *shape)
+
+
+def sign_near_zero(coefficients: Floats) -> Floats:
+    """The sign of each polynomial just right of zero: −1, 0 (identically zero) or 1."""
+    sign = np.zeros(coefficients.shape[1:])
+    for c in coefficients:
+        sign = np.where(sign == 0, np.sign(c), sign)
+    return sign
+
+
+def _solve(c: Floats) -> Floats:
+    used = [j for j in range(len(c)) if np.any(c[j])]
+    if len(used) < 2:
+        return np.empty((0, c.shape[1]))
+    step = int(np.gcd.reduce(np.diff(used)))  # the conditions without damping depend on V² alone
+    c = c[used[0] : used[-1] + 1 : step]
+    roots = _quadratic(c) if len(c) <= 3 else _bracketed(c)
+    return roots if step == 1 else roots ** (1 / step) if step > 2 else np.sqrt(roots)
+
+
+def _quadratic(c: Floats) -> Floats:
+    """The positive sign changes of c0 + c1 x (+ c2 x²), without subtracting nearly equal numbers."""
+    c0, c1 = c[0], c[1]
+    c2 = c[2] if len(c) == 3 else np.zeros_like(c0)
+    square = c1 * c1 - 4 * c0 * c2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        q = -0.5 * (c1 + np.copysign(np.sqrt(square), c1))  # NaN without real roots
+        pair = np.array([q / c2, c0 / q])
+    pair[:, ~(square > 0)] = np.nan
+    pair[~(np.isfinite(pair) & (pair > 0))] = np.nan
+    pair[0, c2 == 0] = np.nan
+    return np.sort(pair, axis=0)  # NaN sorts last
+
+
+def _bracketed(c: Floats) -> Floats:
+    """Between two neighbouring roots of its derivative a polynomial changes sign at most once."""
+    lo, hi = _bounds(c)
+    knots, found = _sign_changes(c, lo, hi, _CLOSE)
+    return np.sort(np.where(found, knots, np.nan), axis=0)
+
+
+def _bounds(c: Floats) -> tuple[Floats, Floats]:
+    """Cells' bounds 0 < lo < hi with every positive root between (Fujiwara 1916, both ways round)."""
+
+    def upper(c: Floats) -> Floats:
+        order = len(c) - 1 - np.argmax(c[::-1] != 0, axis=0)  # degree of each cell
+        lead = np.abs(np.take_along_axis(c, order[np.newaxis], axis=0)[0])
+        bound = np.zeros_like(lead)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            for j, cj in enumerate(c[:-1]):
+                ratio = np.abs(cj) / lead
+                bound = np.fmax(bound, np.where(j < order, ratio ** (1 / np.maximum(order - j, 1)), 0))
+        return 2 * bound
+
+    hi = upper(c)
+    low = upper(c[::-1])
+    some = (hi > 0) & (low > 0)
+    return np.where(some, 0.5 / np.where(some, low, 1), 1.0), np.where(some, 2 * hi, 1.0)
+
+
+def _sign_changes(c: Floats, lo: Floats, hi: Floats, close: float) -> tuple[Floats, np.ndarray]:
+    """Ascending knots in [lo, hi], one for each power, and which of them are sign changes.
+
+    A knot that is none is the right end of its bracket: it cuts a monotone stretch, which does no harm.
+    """
+    n = len(c) - 1
+    if n == 1:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            root = -c[0] / c[1]
+        inside = (root > lo) & (root < hi)
+        return np.where(inside, root, hi)[np.newaxis], inside[np.newaxis]
+    slope = c[1:] * np.arange(1, n + 1)[:, np.newaxis]
+    knots = np.concatenate([lo[np.newaxis], _sign_changes(slope, lo, hi, _CLOSE_SLOPE)[0], hi[np.newaxis]])
+    sign = np.sign(_horner(c, knots))
+    for i in range(1, n + 1):  # a zero at a knot belongs to the bracket on its right
+        sign[i] = np.where(sign[i] == 0, sign[i - 1], sign[i])
+    found = sign[:-1] * sign[1:] < 0
+    roots = knots[1:].copy()
+    index, cell = np.nonzero(found)
+    ends = knots[index, cell], knots[index + 1, cell], sign[index + 1, cell]
+    roots[index, cell] = _bracket(c[:, cell], *ends, close)
+    return roots, found
+
+
+def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> Floats:
+    """The one root of each polynomial in [a, b]: Newton's steps, halving in the logarithm where they fail.
+
+    A step that is ``close`` (relative) to its start ends the search; its result is twice as good.
+    """
+    root = np.empty_like(a)
+    cell = np.arange(len(a))
+    x = np.sqrt(a * b)
+    while len(cell):
+        f, slope = _value_and_slope(c, x)
+        right = f * sign_b > 0
+        b = np.where(right, x, b)
+        a = np.where(right, a, x)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            new = np.where(f == 0, x, x - f / slope)
+        new = np.where((new >= a) & (new <= b), new, np.sqrt(a * b))
+        active = (np.abs(new - x) > close * x) & (b - a > 2**-51 * b)
+        root[cell] = x = new
+        if np.count_nonzero(active) < 0.7 * len(cell):
+            cell, a, b, x, sign_b = (v[active] for v in (cell, a, b, x, sign_b))
+            c = c[:, active]
+    return root
+
+
+def _value_and_slope(c: Floats, x: Floats) -> tuple[Floats, Floats]:
+    value, slope = c[-1] * x + c[-2], c[-1]
+    for cj in c[-3::-1]:
+        slope = slope * x + value
+        value = value * x + cj
+    return value, slope
+
+
+def _horner(c: Floats, x: Floats) -> Floats:
+    value = c[-1] * np.ones_like(x)
+    for cj in c[-2::-1]:
+        value = value * x + cj
+    return value

@@ -1,0 +1,103 @@
+"""(table, V) → the six Routh–Hurwitz conditions (2.2): which hold, and where all do."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bikestab.model import Floats
+
+CONDITIONS = ("p0", "p1", "p2", "p3", "p4", "hurwitz3")  # bit k of ``violated`` is CONDITIONS[k]
+
+
+class Conditions(NamedTuple):
+    """Left sides of the six conditions; all are positive where rectilinear motion is stable."""
+
+    p0: Floats
+    p1: Floats
+    p2: Floats
+    p3: Floats
+    p4: Floats
+    hurwitz3: Floats
+
+
+def coefficients_at(table: Floats, V: ArrayLike) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+    """p0 … p4, the coefficients of s^0 … s^4 at the speeds V [m/s].
+
+    ``table`` has shape (5, 4, *shape) and V broadcasts against ``shape``.
+    """
+    V = np.asarray(V, dtype=float)
+    powers = np.any(table, axis=tuple(range(2, table.ndim)))  # powers of V that each row has in any cell
+    p0, p1, p2, p3, p4 = (_polynomial(table[k], powers[k], V) for k in range(5))
+    return p0, p1, p2, p3, p4
+
+
+def conditions(table: Floats, V: ArrayLike) -> Conditions:
+    """The left sides of (2.2) at the speeds V [m/s]; shapes as in ``coefficients_at``."""
+    p0, p1, p2, p3, p4 = coefficients_at(table, V)
+    hurwitz3 = p2 * p3
+    hurwitz3 -= p4 * p1
+    hurwitz3 *= p1
+    hurwitz3 -= p0 * p3 * p3
+    return Conditions(p0, p1, p2, p3, p4, hurwitz3)
+
+
+def violated(values: Conditions) -> NDArray[np.uint8]:
+    """A bit mask: bit k = p_k ≤ 0 for k = 0…4, bit 5 = hurwitz3 ≤ 0; 0 means stable."""
+    mask = (values[0] <= 0).astype(np.uint8)
+    for bit, value in enumerate(values[1:], 1):
+        mask |= (value <= 0).view(np.uint8) << np.uint8(bit)
+    return mask
+
+
+def stable(table: Floats, V: ArrayLike) -> NDArray[np.bool_]:
+    """Where rectilinear motion is asymptotically stable: all six conditions hold."""
+    return violated(conditions(table, V)) == 0
+
+
+def condition_polynomials(table: Floats) -> dict[str, Floats]:
+    """Each condition as a polynomial in V: coefficients of V^0, V^1, … along the first axis.
+
+    The products behind hurwitz3 can cancel exactly; what is left of them is treated as in ``model``.
+    """
+    p0, p1, p2, p3, p4 = table
+    first = _product(p1, _product(p2, p3))
+    second = _product(p4, _product(p1, p1))
+    third = _product(p0, _product(p3, p3))
+    size = (
+        _product(abs(p1), _product(abs(p2), abs(p3)))
+        + _product(abs(p4), _product(abs(p1), abs(p1)))
+        + _product(abs(p0), _product(abs(p3), abs(p3)))
+    )
+    hurwitz3 = first - second - third
+    hurwitz3[np.abs(hurwitz3) <= 64 * np.finfo(float).eps * size] = 0.0
+    return {"p0": p0, "p1": p1, "p2": p2, "p3": p3, "p4": p4, "hurwitz3": hurwitz3}
+
+
+def _polynomial(row: Floats, powers: NDArray[np.bool_], V: Floats) -> Floats:
+    """Horner's scheme along the first axis of ``row``, over the powers that some cell has."""
+    used = np.flatnonzero(powers).tolist() or [0]
+    value = row[used[-1]]
+    for high, low in pairwise(reversed(used)):
+        value = value * V ** (high - low)
+        value += row[low]
+    if used[0] > 0:
+        value = value * V ** used[0]
+    return np.broadcast_to(value, np.broadcast_shapes(row.shape[1:], V.shape))
+
+
+def _product(a: Floats, b: Floats) -> Floats:
+    """The product of two polynomials along the first axis."""
+    out = np.zeros((len(a) + len(b) - 1, *np.broadcast_shapes(a.shape[1:], b.shape[1:])))
+    for i in _used(a):
+        for j in _used(b):
+            out[i + j] += a[i] * b[j]
+    return out
+
+
+def _used(row: Floats) -> list[int]:
+    """The powers that some cell has; [0] where there are none."""
+    return [j for j in range(len(row)) if np.any(row[j])] or [0]

@@ -1,0 +1,118 @@
+"""table → critical speeds and the exact intervals of stable speed.
+
+For fixed (λ, σ) each condition of (2.2) is a polynomial in V. The border of the stable set is reached
+only where p0 or hurwitz3 changes sign, so these roots cut the speed axis into stretches that are
+stable throughout or nowhere; no grid is involved, and no interval is too narrow.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bikestab.model import Floats
+from bikestab.roots import positive_roots, sign_near_zero
+from bikestab.routh import condition_polynomials, conditions
+
+KINDS = ("none", "weave", "capsize", "rest", "unbounded")  # value k of ``lower`` and ``upper``
+NONE, WEAVE, CAPSIZE, REST, UNBOUNDED = range(5)
+_CHUNK = 1 << 14
+
+
+class Intervals(NamedTuple):
+    """Stable speeds V1 < V < V2 [m/s] of each cell, ascending; shape (*shape, interval).
+
+    V1 and V2 are NaN behind a cell's last interval; V2 is inf where it is unbounded above.
+    ``lower`` and ``upper`` are indices into KINDS: what happens at either end.
+    """
+
+    V1: Floats
+    V2: Floats
+    lower: NDArray[np.uint8]
+    upper: NDArray[np.uint8]
+
+    @property
+    def number(self) -> NDArray[np.intp]:
+        """How many intervals each cell has."""
+        return np.count_nonzero(self.upper, axis=-1)
+
+
+def stable_intervals(table: Floats) -> Intervals:
+    """Every interval of stable speeds of a table (5, 4, *shape), exact to rounding.
+
+    An end is ``weave`` (hurwitz3 = 0), ``capsize`` (p0 = 0), ``rest`` (V = 0) or ``unbounded``.
+    The last axis is as long as the largest number of intervals in any cell, and at least 1.
+    """
+    shape = table.shape[2:]
+    cells = table.reshape(5, 4, -1)
+    parts = [_intervals(cells[..., i : i + _CHUNK]) for i in range(0, cells.shape[-1], _CHUNK)]
+    most = max((part.V1.shape[1] for part in parts), default=1)
+    return Intervals(
+        *(
+            np.concatenate([_widen(values, most) for values in field]).reshape(*shape, most)
+            for field in zip(*parts, strict=True)
+        )
+    )
+
+
+def critical_speeds(table: Floats) -> dict[str, Floats]:
+    """The positive speeds at which each condition changes sign; shape (root, *shape), NaN where none.
+
+    Not every root of hurwitz3 or p0 is an edge of stability, and those of the others never are.
+    """
+    return {name: positive_roots(poly) for name, poly in condition_polynomials(table).items()}
+
+
+def _intervals(table: Floats) -> Intervals:
+    polynomials = condition_polynomials(table)
+    p0, hurwitz3 = polynomials["p0"], polynomials["hurwitz3"]
+    capsize, weave = positive_roots(p0), positive_roots(hurwitz3)
+    n = table.shape[-1]
+
+    V = np.concatenate([weave, capsize])
+    kind = np.repeat(np.array([WEAVE, CAPSIZE], np.uint8), [len(weave), len(capsize)])
+    order = np.argsort(V, axis=0, kind="stable")  # NaN last
+    V = np.take_along_axis(V, order, axis=0)
+    exists = np.isfinite(V)
+    kind_at = np.where(exists, kind[order], NONE).astype(np.uint8)
+
+    # stretch i lies between ends i and i + 1 of: rest, the critical speeds, infinity
+    rest, infinity = np.zeros((1, n)), np.full((1, n), np.inf)
+    lower_V = np.concatenate([rest, V])
+    upper_V = np.concatenate([np.where(exists, V, np.inf), infinity])
+    lower = np.concatenate([np.full((1, n), REST, np.uint8), kind_at])
+    upper = np.concatenate([np.where(exists, kind_at, UNBOUNDED), np.full((1, n), UNBOUNDED)])
+    upper = upper.astype(np.uint8)
+
+    # p0 and hurwitz3 by counting their sign changes, which is right in however narrow a stretch;
+    # the others keep their sign throughout a stable stretch, so any speed inside it will do
+    crossed = [np.concatenate([rest, np.cumsum(kind_at == k, axis=0)]) % 2 for k in (CAPSIZE, WEAVE)]
+    good = np.ones_like(lower_V, dtype=bool)
+    for poly, odd in zip((p0, hurwitz3), crossed, strict=True):
+        good &= sign_near_zero(poly) * (1 - 2 * odd) > 0
+    good &= lower_V < upper_V
+    inside = np.where(np.isfinite(upper_V), lower_V + 0.5 * (upper_V - lower_V), 2 * lower_V + 1)
+    column, stretch = np.nonzero(good.T)
+    values = conditions(table[..., column], inside[stretch, column])
+    good[stretch, column] = np.all([values.p1 > 0, values.p2 > 0, values.p3 > 0, values.p4 > 0], axis=0)
+
+    # the stable stretches of each column, moved to the front
+    count = np.count_nonzero(good, axis=0)
+    most = max(int(count.max(initial=0)), 1)
+    first = np.argsort(~good, axis=0, kind="stable")[:most]
+    kept = np.arange(most)[:, np.newaxis] < count
+
+    def pick(values: NDArray, empty: float) -> NDArray:
+        return np.where(kept, np.take_along_axis(values, first, axis=0), empty).astype(values.dtype).T
+
+    return Intervals(pick(lower_V, np.nan), pick(upper_V, np.nan), pick(lower, NONE), pick(upper, NONE))
+
+
+def _widen(values: NDArray, most: int) -> NDArray:
+    if values.shape[1] == most:
+        return values
+    empty = np.nan if values.dtype.kind == "f" else NONE
+    extra = np.full((len(values), most - values.shape[1]), empty, values.dtype)
+    return np.concatenate([values, extra], axis=1)

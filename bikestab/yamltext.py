@@ -1,0 +1,87 @@
+"""YAML documents that remember on which line each of their values stands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bikestab.errors import InputError
+
+
+@dataclass(frozen=True)
+class Document:
+    """A parsed YAML mapping, its text and its file name."""
+
+    file: str
+    text: str
+    data: Any  # ruamel's CommentedMap: a dict that also knows its lines
+
+    def line(self, key: Sequence[str | int]) -> int:
+        """The line (from 1) of the value at ``key``, or of the nearest parent that exists."""
+        node, line = self.data, 1
+        for part in key:
+            try:
+                position = node.lc.data[part]
+                node = node[part]
+            except (AttributeError, KeyError, IndexError, TypeError):
+                break
+            line = position[0] + 1
+        return line
+
+    def located(self, error: InputError) -> InputError:
+        """The same error with this file and the line of its key in front."""
+        if error.place:
+            return error
+        place = f"{self.file}, line {self.line(error.key)}"
+        return InputError(error.problem, key=error.key, hint=error.hint, place=place)
+
+
+def read(path: str | Path) -> Document:
+    """Read and parse the YAML file at ``path``; InputError if it cannot be read or is no mapping."""
+    file = str(path)
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise InputError("there is no such file", place=file, hint=_neighbours(Path(path))) from None
+    except IsADirectoryError:
+        raise InputError("is a folder, not a YAML file", place=file) from None
+    except UnicodeDecodeError:
+        raise InputError("is not a text file in UTF-8", place=file) from None
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})", place=file) from None
+    return parse(text, file)
+
+
+def parse(text: str, file: str) -> Document:
+    """Parse YAML ``text``; ``file`` is the name used in messages."""
+    from ruamel.yaml import YAML
+    from ruamel.yaml.error import MarkedYAMLError, YAMLError
+
+    try:
+        data = YAML().load(text)
+    except MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        place = f"{file}, line {mark.line + 1}, column {mark.column + 1}" if mark else file
+        problem = " ".join(str(error.problem or error.context).split())
+        raise InputError(f"not valid YAML: {problem}", place=place) from None
+    except YAMLError as error:
+        problem = " ".join(str(error).split())[:120]
+        raise InputError(f"not valid YAML: {problem}", place=file) from None
+    if not isinstance(data, dict):
+        found = "an empty document" if data is None else f"a {type(data).__name__}"
+        raise InputError(
+            f"holds {found}, not keys with values",
+            place=file,
+            hint="a valid file has lines such as 'bicycle: dikarev1981'; see 'bikestab init'",
+        )
+    return Document(file, text, data)
+
+
+def _neighbours(path: Path) -> str:
+    folder = path.parent
+    if not folder.is_dir():
+        return f"the folder {str(folder)!r} does not exist either"
+    names = sorted(p.name for p in folder.iterdir() if p.suffix in {".yaml", ".yml"})[:8]
+    return f"YAML files in {str(folder)!r}: {', '.join(names) or 'none'}"
