@@ -119,7 +119,7 @@ class Bicycle:
             if (text := values.pop(key, None)) is not None:
                 if not isinstance(text, str):
                     raise InputError(f"{shown(text)} is not text", key=(key,))
-                texts[key] = text
+                texts[key] = str(text)  # YAML readers give subclasses
         notation = MEIJAARD if _is_meijaard(values) else PAPER
         for key in values:
             if key not in notation:

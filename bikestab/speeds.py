@@ -18,6 +18,7 @@ from bikestab.routh import condition_polynomials, conditions
 
 KINDS = ("none", "weave", "capsize", "rest", "unbounded")  # value k of ``lower`` and ``upper``
 NONE, WEAVE, CAPSIZE, REST, UNBOUNDED = range(5)
+_EMPTY = (np.nan, np.nan, NONE, NONE)  # what stands in Intervals behind a cell's last one
 _CHUNK = 1 << 14
 
 
@@ -48,13 +49,10 @@ def stable_intervals(table: Floats) -> Intervals:
     shape = table.shape[2:]
     cells = table.reshape(5, 4, -1)
     parts = [_intervals(cells[..., i : i + _CHUNK]) for i in range(0, cells.shape[-1], _CHUNK)]
-    most = max((part.V1.shape[1] for part in parts), default=1)
-    return Intervals(
-        *(
-            np.concatenate([_widen(values, most) for values in field]).reshape(*shape, most)
-            for field in zip(*parts, strict=True)
-        )
-    )
+    fields = [
+        joined([list(field)], empty) for field, empty in zip(zip(*parts, strict=True), _EMPTY, strict=True)
+    ]
+    return Intervals(*(field.reshape(*shape, -1) for field in fields))
 
 
 def critical_speeds(table: Floats) -> dict[str, Floats]:
@@ -110,9 +108,14 @@ def _intervals(table: Floats) -> Intervals:
     return Intervals(pick(lower_V, np.nan), pick(upper_V, np.nan), pick(lower, NONE), pick(upper, NONE))
 
 
-def _widen(values: NDArray, most: int) -> NDArray:
-    if values.shape[1] == most:
-        return values
-    empty = np.nan if values.dtype.kind == "f" else NONE
-    extra = np.full((len(values), most - values.shape[1]), empty, values.dtype)
-    return np.concatenate([values, extra], axis=1)
+def joined(blocks: list[list[NDArray]], empty: float) -> NDArray:
+    """Blocks (row, column, …, item) of a plane as one array, short ones filled up with ``empty``."""
+    most = max((block.shape[-1] for row in blocks for block in row), default=1)
+    return np.concatenate(
+        [np.concatenate([_widen(block, most, empty) for block in row], axis=-2) for row in blocks]
+    )
+
+
+def _widen(values: NDArray, most: int, empty: float) -> NDArray:
+    missing = most - values.shape[-1]
+    return np.concatenate([values, np.full((*values.shape[:-1], missing), empty, values.dtype)], axis=-1)

@@ -1,0 +1,406 @@
+"""A scan's YAML file → ScanConfig; every mistake is one message with file, line, key and what is allowed."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import math
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated, Any, Generic, Literal, TypeAlias, TypeVar
+
+import numpy as np
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    PrivateAttr,
+    Tag,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
+
+from bikestab import yamltext
+from bikestab.bicycle import MEIJAARD, PAPER, Bicycle, check_tilt, preset_names
+from bikestab.errors import InputError, dotted, nearest
+from bikestab.model import Floats, Model
+from bikestab.units import ANGLE, PURE, SPEED, quantity, shown
+
+AXES = ("lam", "sigma", "V")
+Axis = Literal["lam", "sigma", "V"]
+FieldName = Literal["stable", "violated", "growth_rate", "conditions"]
+
+
+def _reads(units: dict[str, float], check: str = "") -> BeforeValidator:
+    def validate(value: object) -> float:
+        if check == "upper speed" and value == "unbounded":
+            return math.inf
+        try:
+            number = quantity(value, units)
+            if check == "tilt":
+                check_tilt(number, ())
+        except InputError as error:
+            raise _custom(error.problem, error.hint) from None
+        if check.endswith("speed") and number < 0:
+            raise _custom(f"{number:g} is a speed backwards", "allowed: 0 m/s and above")
+        if check == "not negative" and number < 0:
+            raise _custom(f"{number:g} is negative", "allowed: 0 and above")
+        if check == "positive" and number <= 0:
+            raise _custom(f"{number:g} is not positive", "allowed: above 0")
+        return number
+
+    return BeforeValidator(validate)
+
+
+def _schema(units: dict[str, float], *words: str) -> WithJsonSchema:
+    text = {"type": "string", "pattern": rf"^\s*[-+.\d][-+.\deE]*\s*({'|'.join(units)})?\s*$"}
+    return WithJsonSchema({"anyOf": [{"type": "number"}, text, *({"const": word} for word in words)]})
+
+
+def _custom(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> PydanticCustomError:
+    return PydanticCustomError("bikestab", "{problem}", {"problem": problem, "hint": hint, "key": key})
+
+
+Tilt: TypeAlias = Annotated[float, _reads(ANGLE, "tilt"), _schema(ANGLE)]
+Trail: TypeAlias = Annotated[float, _reads(PURE)]
+Speed: TypeAlias = Annotated[float, _reads(SPEED, "speed"), _schema(SPEED)]
+UpperSpeed: TypeAlias = Annotated[float, _reads(SPEED, "upper speed"), _schema(SPEED, "unbounded")]
+Within: TypeAlias = Annotated[float, _reads(SPEED, "positive"), _schema(SPEED)]
+Damping: TypeAlias = Annotated[float, _reads(PURE, "not negative")]
+T = TypeVar("T")
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+class Range(_Strict, Generic[T]):
+    """Equally spaced values, both ends included."""
+
+    start: T
+    stop: T
+    num: Annotated[int, Field(ge=2, strict=True, description="number of values")]
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Range[T]:
+        if not self.stop > self.start:  # type: ignore[operator]  # both are floats
+            raise _custom(f"stop = {self.stop} is not above start = {self.start}", "allowed: start < stop")
+        return self
+
+
+class Values(_Strict, Generic[T]):
+    """Values of one's own choice."""
+
+    values: Annotated[list[T], Field(min_length=2)]
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Values[T]:
+        for a, b in zip(self.values, self.values[1:], strict=False):
+            if not b > a:  # type: ignore[operator]  # both are floats
+                raise _custom(f"{b} does not come after {a}", "allowed: values that increase")
+        return self
+
+
+def _tag(given: Any) -> str:
+    return (
+        "values" if isinstance(given, Values) or (isinstance(given, dict) and "values" in given) else "range"
+    )
+
+
+_BY_KEYS = Discriminator(_tag)
+TiltAxis: TypeAlias = Annotated[
+    Annotated[Range[Tilt], Tag("range")] | Annotated[Values[Tilt], Tag("values")], _BY_KEYS
+]
+TrailAxis: TypeAlias = Annotated[
+    Annotated[Range[Trail], Tag("range")] | Annotated[Values[Trail], Tag("values")], _BY_KEYS
+]
+SpeedAxis: TypeAlias = Annotated[
+    Annotated[Range[Speed], Tag("range")] | Annotated[Values[Speed], Tag("values")], _BY_KEYS
+]
+
+
+class Grid(_Strict):
+    """The values of λ, σ and V whose every combination is evaluated."""
+
+    lam: Annotated[TiltAxis, Field(description="tilt of the steering axis from the vertical [rad]")]
+    sigma: Annotated[TrailAxis, Field(description="trail divided by the wheelbase [1]")]
+    V: Annotated[SpeedAxis, Field(description="forward speed [m/s]")]
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Number of values of λ, σ and V."""
+        return tuple(  # type: ignore[return-value]  # three axes, three numbers
+            axis.num if isinstance(axis, Range) else len(axis.values)
+            for axis in (self.lam, self.sigma, self.V)
+        )
+
+    def values(self, name: Axis) -> Floats:
+        """The values of one axis."""
+        axis = getattr(self, name)
+        if isinstance(axis, Range):
+            return np.linspace(axis.start, axis.stop, axis.num)
+        return np.array(axis.values)
+
+    def ends(self, name: Axis) -> tuple[float, float]:
+        """First and last value of one axis."""
+        axis = getattr(self, name)
+        return (axis.start, axis.stop) if isinstance(axis, Range) else (axis.values[0], axis.values[-1])
+
+
+class Plane(_Strict):
+    """A picture across one axis, at one of its values."""
+
+    lam: Tilt | None = None
+    sigma: Trail | None = None
+    V: Speed | None = None
+
+    @model_validator(mode="after")
+    def _one(self) -> Plane:
+        if len(self.model_fields_set) != 1:
+            raise _custom("a slice fixes one axis", "allowed: one of {lam: ...}, {sigma: ...}, {V: ...}")
+        return self
+
+    @property
+    def fixed(self) -> tuple[Axis, float]:
+        """The axis and its value."""
+        (name,) = self.model_fields_set
+        return name, getattr(self, name)  # type: ignore[return-value]  # the fields are the axes
+
+
+class Expectation(_Strict):
+    """What ``bikestab check`` compares: an interval of stable speeds, or none."""
+
+    lam: Tilt | None = None
+    sigma: Trail | None = None
+    V1: Speed | None = None
+    V2: UpperSpeed | None = None  # inf for "unbounded"
+    within: Within = 0.001
+    stable: Literal["never"] | None = None
+
+    @model_validator(mode="after")
+    def _something(self) -> Expectation:
+        if (self.stable is None) == (self.V1 is None and self.V2 is None):
+            raise _custom("expects nothing, or two things", "allowed: V1 and/or V2, or 'stable: never'")
+        return self
+
+
+def _bicycle(value: object) -> Bicycle:
+    if isinstance(value, Bicycle):
+        return value
+    raise _custom(f"{shown(value)} is no bicycle", "allowed: a preset, a path to a YAML file, or parameters")
+
+
+_PARAMETERS = {
+    "type": "object",
+    "properties": {
+        key: {"description": text, "type": ["number", "string"] if key == "lam" else "number"}
+        for key, text in {**PAPER, **MEIJAARD}.items()
+    }
+    | {"name": {"type": "string"}, "source": {"type": "string"}},
+    "additionalProperties": False,
+}
+
+
+class ScanConfig(_Strict):
+    """What ``bikestab scan`` computes and where it puts the result."""
+
+    title: Annotated[
+        str, Field(strict=True, description="printed on the pictures and stored in the volume")
+    ] = ""
+    bicycle: Annotated[
+        Bicycle,
+        BeforeValidator(_bicycle),
+        WithJsonSchema({"anyOf": [{"type": "string", "examples": preset_names()}, _PARAMETERS]}),
+        Field(description="a preset, a path to a file from this file's folder, or the parameters in place"),
+    ]
+    model: Annotated[Model, Field(description="refined, or unrefined as before the 1981 paper")] = "refined"
+    delta: Annotated[
+        Damping | None, Field(description="steering damping instead of the bicycle's own [kg m²/s]")
+    ] = None
+    grid: Grid
+    fields: Annotated[list[FieldName], Field(min_length=1, description="what the volume holds")] = [
+        "stable",
+        "violated",
+        "growth_rate",
+    ]
+    slices: Annotated[list[Plane], Field(description="pictures across one axis")] = []
+    output: Annotated[str, Field(strict=True, min_length=1, description="folder, from the current directory")]
+    expect: Annotated[list[Expectation], Field(description="what 'bikestab check' compares")] = []
+    _text: str = PrivateAttr("")
+
+    @model_validator(mode="after")
+    def _consistent(self) -> ScanConfig:
+        for i, plane in enumerate(self.slices):
+            name, value = plane.fixed
+            first, last = self.grid.ends(name)
+            if not first <= value <= last:
+                hint = f"allowed: {first:g} ... {last:g}"
+                raise _custom(f"{value:g} is outside the grid", hint, ("slices", i, name))
+        return self
+
+    @property
+    def machine(self) -> Bicycle:
+        """The bicycle with the damping that is used."""
+        return self.bicycle.with_delta(self.delta)
+
+    @property
+    def text(self) -> str:
+        """The YAML text, with overrides in it."""
+        return self._text
+
+    @property
+    def sha256(self) -> str:
+        """The SHA-256 of the YAML text."""
+        return hashlib.sha256(self.text.encode()).hexdigest()
+
+
+def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
+    """Read a scan's YAML file, with ``key.path=value`` overrides (values in YAML) put over it.
+
+    Raises InputError naming file, line, key, value and what is allowed.
+    """
+    document = yamltext.read(path)
+    return parse_config(document, overrides)
+
+
+def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> ScanConfig:
+    """The configuration in a parsed YAML document; see ``load_config``."""
+    places = {}
+    for override in overrides:
+        key = _override(document.data, override)
+        places[key] = f"--set {override}"
+    text = document.text
+    if overrides:
+        from ruamel.yaml import YAML
+
+        stream = io.StringIO()
+        YAML().dump(document.data, stream)
+        text = stream.getvalue()
+    data = _plain(document.data)
+    try:
+        data.setdefault("output", f"out/{Path(document.file).stem}")
+        if "bicycle" in data:
+            data["bicycle"] = _load_bicycle(data["bicycle"], Path(document.file).parent)
+        try:
+            config = ScanConfig.model_validate(data)
+        except ValidationError as error:
+            raise _translated(error) from None
+        config._text = text
+        return config
+    except InputError as error:
+        for key, place in places.items():
+            if not error.place and error.key[: len(key)] == key:
+                raise InputError(error.problem, key=error.key, hint=error.hint, place=place) from None
+        raise document.located(error) from None
+
+
+def config_schema() -> dict[str, Any]:
+    """The JSON Schema of a scan's YAML file."""
+    schema = ScanConfig.model_json_schema()
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    schema["required"].remove("output")
+    return schema
+
+
+def _load_bicycle(value: object, folder: Path) -> object:
+    try:
+        if isinstance(value, str):
+            beside = folder / value
+            return Bicycle.load(str(beside) if beside.is_file() else value)
+        if isinstance(value, dict):
+            return Bicycle.from_mapping(value)
+    except InputError as error:
+        if error.place:
+            raise
+        raise InputError(error.problem, key=("bicycle", *error.key), hint=error.hint) from None
+    return value
+
+
+def _translated(error: ValidationError) -> InputError:
+    """The one mistake to tell of first: a misspelt key explains the missing one."""
+    errors = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
+    first = errors[0]
+    key, context, kind = first["loc"], first.get("ctx", {}), first["type"]
+    if key[:1] == ("grid",):
+        key = key[:2] + key[3:]  # without the tag of the axis' union
+    if kind == "bikestab":
+        return InputError(context["problem"], key=context["key"] or key, hint=context["hint"])
+    if kind == "extra_forbidden":
+        return InputError("unknown key", key=key, hint=nearest(str(key[-1]), _known(key[:-1])))
+    if kind == "missing":
+        return InputError("missing", key=key, hint=f"needed here: {', '.join(_known(key[:-1]))}")
+    if kind == "literal_error":
+        words = context["expected"].replace(" or ", ", ").replace("'", "").split(", ")
+        return InputError(f"{shown(first['input'])} is not known", key=key, hint=_near(first["input"], words))
+    what = {
+        "int_type": "a whole number",
+        "int_from_float": "a whole number",
+        "string_type": "text",
+        "list_type": "a list",
+        "model_type": "keys with values",
+        "model_attributes_type": "keys with values",
+        "dict_type": "keys with values",
+        "greater_than_equal": f"at least {context.get('ge')}",
+        "too_short": f"a list of at least {context.get('min_length')}",
+        "string_too_short": "text that is not empty",
+    }.get(kind, first["msg"])
+    hint = f"keys here: {', '.join(_known(key))}" if what == "keys with values" else f"allowed: {what}"
+    return InputError(f"{shown(first['input'])} is not {what}", key=key, hint=hint)
+
+
+def _near(value: object, words: Sequence[str]) -> str:
+    return nearest(value, words) if isinstance(value, str) else f"known: {', '.join(words)}"
+
+
+def _known(key: tuple[str | int, ...]) -> list[str]:
+    """The keys that may stand at a place of the document."""
+    if not key:
+        return list(ScanConfig.model_fields)
+    if key[0] == "grid":
+        return list(AXES) if len(key) == 1 else ["start", "stop", "num", "values"]
+    model = Plane if key[0] == "slices" else Expectation
+    return list(model.model_fields)
+
+
+def _override(data: Any, override: str) -> tuple[str | int, ...]:
+    """Put ``key.path=value`` into the YAML tree; returns the path."""
+    name, equals, text = override.partition("=")
+    path = [part.strip() for part in name.split(".")]
+    if not equals or not all(path):
+        raise InputError(
+            f"{override!r} is not key=value", place="--set", hint="for example --set grid.lam.num=31"
+        )
+    value = yamltext.parse(f"value: {text}", f"--set {override}").data["value"]
+    key: list[str | int] = []
+    node = data
+    for i, part in enumerate(path):
+        step: str | int = part
+        if isinstance(node, list):
+            with suppress(ValueError):
+                step = int(part)
+            if not isinstance(step, int) or not -len(node) <= step < len(node):
+                raise InputError(f"{dotted(key)} has no item {part}", place=f"--set {override}")
+        elif not isinstance(node, dict):
+            raise InputError(f"{dotted(key)} has no keys", place=f"--set {override}")
+        key.append(step)
+        if i == len(path) - 1:
+            node[step] = value
+        else:
+            if isinstance(node, dict) and step not in node:
+                node[step] = type(node)()
+            node = node[step]
+    return tuple(key)
+
+
+def _plain(node: Any) -> Any:
+    """The YAML tree as plain dicts and lists, with text keys."""
+    if isinstance(node, dict):
+        return {str(key): _plain(value) for key, value in node.items()}
+    if isinstance(node, list):
+        return [_plain(value) for value in node]
+    return node

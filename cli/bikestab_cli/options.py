@@ -1,0 +1,119 @@
+"""Options that several commands share, and the words in which results are told."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from bikestab.errors import InputError
+from bikestab.units import ANGLE, PURE, SPEED, quantity
+
+if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
+
+F = TypeVar("F", bound=Callable[..., Any])
+DEFAULT_BICYCLE = "dikarev1981"
+MOST_VALUES = 1_000_000
+
+
+class Quantity(click.ParamType):
+    """A number with or without a unit."""
+
+    def __init__(self, name: str, units: dict[str, float]) -> None:
+        self.name, self.units = name, units
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        try:
+            return quantity(value, self.units)
+        except InputError as error:
+            self.fail(f"{error.problem}; {error.hint}", param, ctx)
+
+
+class QuantityRange(Quantity):
+    """One such number, or START:STOP:NUM."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
+        if isinstance(value, list):
+            return value
+        parts = str(value).split(":")
+        if len(parts) == 1:
+            return [super().convert(value, param, ctx)]
+        if len(parts) != 3:
+            self.fail(f"{value!r} is neither a number nor START:STOP:NUM, e.g. 0.05:0.3:6", param, ctx)
+        start, stop = (super(QuantityRange, self).convert(part, param, ctx) for part in parts[:2])
+        if not parts[2].strip().isdecimal() or not 2 <= int(parts[2]) <= MOST_VALUES:
+            self.fail(
+                f"{parts[2]!r} in {value!r} is not a number of values from 2 to {MOST_VALUES}", param, ctx
+            )
+        num = int(parts[2])
+        return [start + (stop - start) * i / (num - 1) for i in range(num - 1)] + [stop]
+
+
+ANGLE_VALUE, TRAIL_VALUE, SPEED_VALUE = (
+    Quantity(name, units) for name, units in (("angle", ANGLE), ("number", PURE), ("speed", SPEED))
+)
+ANGLES, TRAILS = QuantityRange("angle", ANGLE), QuantityRange("number", PURE)
+
+
+def machine_options(function: F) -> F:
+    """--bicycle, --model and --delta."""
+    for option in (
+        click.option(
+            "--delta", type=Quantity("number", PURE),
+            help="Steering damping δ [kg m²/s], instead of the bicycle's own.",
+        ),
+        click.option(
+            "--model", type=click.Choice(["refined", "unrefined"]), default="refined", show_default=True,
+            help="The paper's refined equations, or those before it.",
+        ),
+        click.option(
+            "--bicycle", "bicycle_name", metavar="NAME|FILE", default=DEFAULT_BICYCLE, show_default=True,
+            help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a YAML file.",
+        ),
+    ):  # fmt: skip
+        function = option(function)
+    return function
+
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
+
+
+def load_bicycle(name: str, delta: float | None) -> Bicycle:
+    """The bicycle that --bicycle and --delta name; its warnings go to stderr."""
+    from bikestab.bicycle import Bicycle
+
+    if delta is not None and delta < 0:
+        raise click.BadParameter(f"{delta:g} is negative; allowed: 0 and above", param_hint="--delta")
+    bicycle = Bicycle.load(name).with_delta(delta)
+    warn(bicycle)
+    return bicycle
+
+
+def warn(bicycle: Bicycle) -> None:
+    """Tell on stderr what no rigid body can have."""
+    for text in bicycle.warnings:
+        click.echo(f"warning: {bicycle.name}: {text}", err=True)
+
+
+def print_json(value: object) -> None:
+    """JSON on stdout; anything not finite has been turned into null or text before."""
+    click.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Columns of text, aligned to the right."""
+    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
+    lines = ("  ".join(cell.rjust(w) for cell, w in zip(row, widths, strict=True)) for row in (head, *rows))
+    return "\n".join(line.rstrip() for line in lines)
+
+
+def design_columns(lam: float, sigma: float, wheelbase: float) -> list[str]:
+    """λ, head angle, σ and trail as they stand in every table."""
+    return [f"{lam:.6g}", f"{90 - math.degrees(lam):.3f}", f"{sigma:.6g}", f"{sigma * wheelbase:.4f}"]
+
+
+DESIGN_HEAD = ["lam [rad]", "head angle [°]", "sigma", "trail [m]"]
