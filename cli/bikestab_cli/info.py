@@ -1,0 +1,89 @@
+"""bikestab info: what is in a volume."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+from bikestab_cli.options import json_option, print_json
+
+
+@click.command("info")
+@click.argument("volume")
+@click.option(
+    "--config", "show_config", is_flag=True, help="Print the YAML config that the volume was made from."
+)
+@json_option
+def command(volume: str, show_config: bool, as_json: bool) -> None:
+    """Tell what is in VOLUME, a volume.h5 or its folder.
+
+    \b
+    Examples:
+      bikestab info out/quick
+      bikestab info out/quick/volume.h5 --json
+      bikestab info out/quick --config > again.yaml
+    """
+    from bikestab.volume import Volume
+
+    with Volume(volume) as opened:
+        if show_config:
+            click.echo(opened.text("config"), nl=False)
+            return
+        summary = _summary(opened)
+    if as_json:
+        print_json(summary)
+        return
+    axes = summary.pop("axes")
+    warnings = summary.pop("warnings")
+    width = max(map(len, summary)) + 2
+    for key, value in summary.items():
+        click.echo(
+            f"{key.replace('_', ' '):<{width}}{', '.join(value) if isinstance(value, list) else value}"
+        )
+    for name, axis in axes.items():
+        steps = "equal steps" if axis["uniform"] else "own values"
+        click.echo(
+            f"{name:<{width}}{axis['first']:g} ... {axis['last']:g} {axis['unit']}, {axis['num']} values, {steps}"
+        )
+    for text in warnings:
+        click.echo(f"{'warning':<{width}}{text}")
+
+
+def _summary(volume: Any) -> dict[str, Any]:
+    import numpy as np
+
+    from bikestab.config import AXES
+    from bikestab.volume import uniform
+
+    file = volume.file
+    number = np.count_nonzero(file["upper"][()], axis=-1)
+    points = int(np.prod([len(file[name]) for name in AXES]))
+    attributes = file.attrs
+    return {
+        "volume": str(volume.path),
+        "title": volume.text("title"),
+        "bicycle": volume.text("bicycle"),
+        "model": volume.model,
+        "delta": volume.bicycle.delta,
+        "fields": volume.fields,
+        "points": points,
+        "stable_points": int(attributes["stable_points"]),
+        "designs": int(number.size),
+        "designs_with_a_stable_speed": int(np.count_nonzero(number)),
+        "designs_with_several_intervals": int(np.count_nonzero(number > 1)),
+        "designs_stable_without_upper_limit": int(np.count_nonzero(np.isinf(file["V2"][()]).any(axis=-1))),
+        "largest_boundary_difference": float(file["boundary"].attrs["largest_difference"]),
+        "bikestab_version": volume.text("bikestab_version"),
+        "config_sha256": volume.text("config_sha256"),
+        "axes": {
+            name: {
+                "first": float(values[0]),
+                "last": float(values[-1]),
+                "num": len(values),
+                "unit": file[name].attrs["units"].decode(),
+                "uniform": uniform(values),
+            }
+            for name, values in ((name, file[name][()]) for name in AXES)
+        },
+        "warnings": volume.text("warnings").splitlines(),
+    }

@@ -1,0 +1,22 @@
+"""bikestab schema: the JSON Schema of a config, for editors."""
+
+from __future__ import annotations
+
+import click
+from bikestab_cli.options import print_json
+
+
+@click.command("schema")
+def command() -> None:
+    """Print the JSON Schema of a scan config, for completion and checks in an editor.
+
+    In VS Code and others with the YAML language server, put this in the first line of a config:
+    # yaml-language-server: $schema=bikestab.schema.json
+
+    \b
+    Example:
+      bikestab schema > bikestab.schema.json
+    """
+    from bikestab.config import config_schema
+
+    print_json(config_schema())

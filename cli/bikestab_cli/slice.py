@@ -1,0 +1,42 @@
+"""bikestab slice: a PNG of any plane of a volume."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE
+
+
+@click.command("slice")
+@click.argument("volume")
+@click.option("--lam", type=ANGLE_VALUE, help="Fix the tilt: the picture is over trail and speed.")
+@click.option("--sigma", type=TRAIL_VALUE, help="Fix the trail: the picture is over tilt and speed.")
+@click.option("--V", "V", type=SPEED_VALUE, help="Fix the speed: the picture is over tilt and trail.")
+@click.option(
+    "-o", "--output", metavar="FILE", help="PNG, PDF or SVG; default slice_AXIS_VALUE.png beside the volume."
+)
+def command(volume: str, lam: float | None, sigma: float | None, V: float | None, output: str | None) -> None:
+    """Draw the plane of VOLUME in which one axis has a given value.
+
+    VOLUME is a volume.h5 or its folder. The value need not be on the grid: the growth rate is then computed
+    for that plane. The boundary curves are exact in either case.
+
+    \b
+    Examples:
+      bikestab slice out/quick --lam 0.2
+      bikestab slice out/quick/volume.h5 --V 18km/h -o speed.png
+    """
+    from bikestab.plot import draw_slice, save, slice_name
+    from bikestab.volume import Volume
+
+    given = {name: value for name, value in (("lam", lam), ("sigma", sigma), ("V", V)) if value is not None}
+    if len(given) != 1:
+        raise click.UsageError(
+            "give one of --lam, --sigma and --V, for example --lam 0.2", click.get_current_context()
+        )
+    ((fixed, value),) = given.items()
+    with Volume(volume) as opened:
+        path = Path(output) if output else opened.path.parent / slice_name(fixed, value)
+        save(draw_slice(opened, fixed, value), path)  # type: ignore[arg-type]  # one of the three axes
+    click.echo(str(path))
