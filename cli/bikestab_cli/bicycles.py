@@ -12,7 +12,9 @@ from bikestab_cli.options import json_option, print_json
 @click.argument("name", required=False)
 @json_option
 def command(name: str | None, as_json: bool) -> None:
-    """List the bicycles that come with bikestab, or print the YAML file of one.
+    """List the bicycles that come with bikestab.
+
+    With NAME, print the YAML file of that one.
 
     Such a file, changed to taste, serves as --bicycle FILE and as 'bicycle: FILE' in a config.
 

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 @click.command("check")
 @click.argument("configs", nargs=-1, required=True, metavar="CONFIG...")
 def command(configs: tuple[str, ...]) -> None:
-    """Compare the 'expect' entries of configs with the exact stable speeds, for CI.
+    """Compare what configs expect with the exact speeds.
 
-    Needs no scan. Exit code 0 if all hold, 1 if one does not. An entry with V1 and/or V2 holds if one
+    For CI. Reads their 'expect' entries; needs no scan. Exit code 0 if all hold, 1 if one does not. An entry with V1 and/or V2 holds if one
     of the stable intervals has these ends within 'within' m/s; 'stable: never' if there is none.
 
     \b

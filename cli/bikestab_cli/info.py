@@ -37,14 +37,13 @@ def command(volume: str, show_config: bool, as_json: bool) -> None:
     warnings = summary.pop("warnings")
     width = max(map(len, summary)) + 2
     for key, value in summary.items():
-        click.echo(
-            f"{key.replace('_', ' '):<{width}}{', '.join(value) if isinstance(value, list) else value}"
-        )
+        shown = ", ".join(value) if isinstance(value, list) else value
+        click.echo(f"{key.replace('_', ' '):<{width}}{shown}")
     for name, axis in axes.items():
         steps = "equal steps" if axis["uniform"] else "own values"
-        click.echo(
-            f"{name:<{width}}{axis['first']:g} ... {axis['last']:g} {axis['unit']}, {axis['num']} values, {steps}"
-        )
+        unit = "" if axis["unit"] == "1" else f" {axis['unit']}"
+        ends = f"{axis['first']:g} ... {axis['last']:g}{unit}"
+        click.echo(f"{name:<{width}}{ends}, {axis['num']} values, {steps}")
     for text in warnings:
         click.echo(f"{'warning':<{width}}{text}")
 

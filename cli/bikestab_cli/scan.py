@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 @click.option("--force", is_flag=True, help="Replace the output of another config, or compute again.")
 @json_option
 def command(configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, as_json: bool) -> None:
-    """Evaluate the grids of YAML configs; write a volume.h5 and PNG slices for each.
+    """Evaluate grids; write volumes and pictures.
+
+    Each YAML config gives a volume.h5 and PNG slices in its output folder.
 
     'bikestab init' writes a commented config to start from. All configs are read before the first is
     computed. A volume that is there already, made from the same config, is kept and only its
@@ -50,9 +52,8 @@ def command(configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, a
             raise InputError(error.problem, key=error.key, hint=error.hint, place=name) from None
         path = volume_path(config).resolve()
         if path in loaded:
-            raise InputError(
-                f"{name} and {loaded[path][0]} have the same output {config.output}", key=("output",)
-            )
+            problem = f"{config.output} is the output of {loaded[path][0]} too"
+            raise InputError(problem, key=("output",), place=name)
         loaded[path] = name, config
     done = []
     for name, config in loaded.values():

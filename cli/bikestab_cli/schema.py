@@ -8,7 +8,9 @@ from bikestab_cli.options import print_json
 
 @click.command("schema")
 def command() -> None:
-    """Print the JSON Schema of a scan config, for completion and checks in an editor.
+    """Print the JSON Schema of a config, for editors.
+
+    It gives completion and checks while typing.
 
     In VS Code and others with the YAML language server, put this in the first line of a config:
     # yaml-language-server: $schema=bikestab.schema.json

@@ -17,9 +17,9 @@ from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE
     "-o", "--output", metavar="FILE", help="PNG, PDF or SVG; default slice_AXIS_VALUE.png beside the volume."
 )
 def command(volume: str, lam: float | None, sigma: float | None, V: float | None, output: str | None) -> None:
-    """Draw the plane of VOLUME in which one axis has a given value.
+    """Draw any plane of a volume.
 
-    VOLUME is a volume.h5 or its folder. The value need not be on the grid: the growth rate is then computed
+    One of the three axes is fixed. VOLUME is a volume.h5 or its folder. The value need not be on the grid: the growth rate is then computed
     for that plane. The boundary curves are exact in either case.
 
     \b

@@ -39,7 +39,7 @@ def command(
     delta: float | None,
     as_json: bool,
 ) -> None:
-    """Print the speeds V1 < V < V2 at which rectilinear motion is stable.
+    """Print the stable speeds V1 < V < V2.
 
     The ends are exact roots, not read off a grid, and each is named: weave (an oscillation starts), capsize
     (a slow fall starts), rest (V = 0) or unbounded. Without --lam or --sigma the bicycle's own are
@@ -135,14 +135,14 @@ def _rows(results: list[dict[str, Any]], wheelbase: float) -> list[list[str]]:
 
 
 def _advice(nearest: dict[str, Any], wheelbase: float) -> str:
-    lines = []
+    lines = []  # rounded to the stable side, so that what is printed can be typed in
     if nearest["sigma_min"] is not None:
-        sigma = nearest["sigma_min"]
+        sigma = math.ceil(nearest["sigma_min"] * 1e6) / 1e6
         lines.append(
             f"a stable speed appears at this λ from σ = {sigma:.6f} on (trail {sigma * wheelbase:.4f} m)"
         )
     if nearest["lam_min"] is not None:
-        low, high = nearest["lam_min"], nearest["lam_max"]
+        low, high = math.ceil(nearest["lam_min"] * 1e6) / 1e6, math.floor(nearest["lam_max"] * 1e6) / 1e6
         lines.append(
             f"and at this σ for λ = {low:.6f} ... {high:.6f} rad "
             f"(head angle {90 - math.degrees(low):.2f} ... {90 - math.degrees(high):.2f}°)"
