@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 def command(configs: tuple[str, ...]) -> None:
     """Compare what configs expect with the exact speeds.
 
-    For CI. Reads their 'expect' entries; needs no scan. Exit code 0 if all hold, 1 if one does not. An entry with V1 and/or V2 holds if one
-    of the stable intervals has these ends within 'within' m/s; 'stable: never' if there is none.
+    For CI. Reads their 'expect' entries; needs no scan. Exit code 0 if all hold, 1 if one does not. An
+    entry with V1 and/or V2 holds if one of the stable intervals has these ends within 'within' m/s;
+    'stable: never' if there is none.
 
     \b
     Example:

@@ -19,8 +19,8 @@ from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE
 def command(volume: str, lam: float | None, sigma: float | None, V: float | None, output: str | None) -> None:
     """Draw any plane of a volume.
 
-    One of the three axes is fixed. VOLUME is a volume.h5 or its folder. The value need not be on the grid: the growth rate is then computed
-    for that plane. The boundary curves are exact in either case.
+    One of the three axes is fixed. VOLUME is a volume.h5 or its folder. The value need not be on the
+    grid: the growth rate is then computed for that plane. The boundary curves are exact in either case.
 
     \b
     Examples:
