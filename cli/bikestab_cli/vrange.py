@@ -93,7 +93,6 @@ def _results(bicycle: Bicycle, lams: list[float], sigmas: list[float], model: An
     import numpy as np
 
     from bikestab.model import characteristic_table
-    from bikestab.nearest import nearest_stable
     from bikestab.speeds import KINDS, stable_intervals
 
     found = stable_intervals(characteristic_table(bicycle, np.array(lams)[:, None], sigmas, model=model))
@@ -115,10 +114,16 @@ def _results(bicycle: Bicycle, lams: list[float], sigmas: list[float], model: An
                 "head_angle_deg": 90 - math.degrees(lams[i]),
                 "trail": sigmas[j] * bicycle.c,
                 "intervals": intervals,
-                "nearest": None if number else nearest_stable(bicycle, lams[i], sigmas[j], model=model),
+                "nearest": None if number else _nearest(bicycle, lams[i], sigmas[j], model),
             }
         )
     return results
+
+
+def _nearest(bicycle: Bicycle, lam: float, sigma: float, model: Any) -> Any:
+    from bikestab.nearest import nearest_stable
+
+    return nearest_stable(bicycle, lam, sigma, model=model)
 
 
 def _rows(results: list[dict[str, Any]], wheelbase: float) -> list[list[str]]:
