@@ -17,7 +17,8 @@ from bikestab import yamltext
 from bikestab.errors import InputError, nearest
 from bikestab.units import ANGLE, PURE, quantity, shown
 
-
+MOST_TRAIL = 100.0  # of σ
+MOST = 1e9  # of every parameter, in its SI unit; more would overflow in products of conditions
 _PRESETS = Path(__file__).parent / "presets"  # importlib.resources costs vrange a tenth of its start
 
 
@@ -68,6 +69,8 @@ class Bicycle:
             object.__setattr__(self, p.name, number)
         if self.lam is not None:
             check_tilt(self.lam, ("lam",))
+        if self.sigma is not None:
+            check_trail(self.sigma, ("sigma",))
         for i, A, B, C, D, R in (
             ("1", self.A1, self.B1, self.C1, self.D1, self.R1),
             ("2", self.A2, self.B2, self.C2, self.D2, self.R2),
@@ -192,6 +195,16 @@ def check_tilt(lam: float, key: tuple[str | int, ...]) -> None:
             f"a steering axis tilted by {lam:g} rad does not meet the ground",
             key=key,
             hint="allowed: between -90deg and 90deg, both excluded; degrees are written 18deg",
+        )
+
+
+def check_trail(sigma: float, key: tuple[str | int, ...]) -> None:
+    """Raise InputError for a trail beyond all sense, which would overflow in the conditions."""
+    if not abs(sigma) <= MOST_TRAIL:
+        raise InputError(
+            f"a trail of {sigma:g} wheelbases is out of range",
+            key=key,
+            hint=f"allowed: -{MOST_TRAIL:g} ... {MOST_TRAIL:g}; sigma = trail / wheelbase",
         )
 
 
@@ -342,6 +355,8 @@ def _require(given: Mapping[str, float], required: list[str], instead_of_radii: 
 
 
 def _check(key: str, value: float, check: str) -> None:
+    if abs(value) > MOST:
+        raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: up to {MOST:g}")
     if (check == "positive" and not value > 0) or (check == "non-negative" and not value >= 0):
         meaning = PAPER.get(key) or MEIJAARD[key]
         limit = "> 0" if check == "positive" else ">= 0"

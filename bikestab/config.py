@@ -26,11 +26,12 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from bikestab import yamltext
-from bikestab.bicycle import MEIJAARD, PAPER, Bicycle, check_tilt, preset_names
+from bikestab.bicycle import MEIJAARD, PAPER, Bicycle, check_tilt, check_trail, preset_names
 from bikestab.errors import InputError, dotted, nearest
 from bikestab.model import Floats, Model
 from bikestab.units import ANGLE, PURE, SPEED, quantity, shown
 
+MOST_SPEED = 1e6  # m/s; more would overflow in hurwitz3
 AXES = ("lam", "sigma", "V")
 Axis = Literal["lam", "sigma", "V"]
 FieldName = Literal["stable", "violated", "growth_rate", "conditions"]
@@ -38,16 +39,20 @@ FieldName = Literal["stable", "violated", "growth_rate", "conditions"]
 
 def _reads(units: dict[str, float], check: str = "") -> BeforeValidator:
     def validate(value: object) -> float:
-        if check == "upper speed" and value == "unbounded":
+        words = ", or unbounded" if check == "upper speed" else ""
+        if words and value == "unbounded":
             return math.inf
         try:
             number = quantity(value, units)
             if check == "tilt":
                 check_tilt(number, ())
+            if check == "trail":
+                check_trail(number, ())
         except InputError as error:
-            raise _custom(error.problem, error.hint) from None
-        if check.endswith("speed") and number < 0:
-            raise _custom(f"{number:g} is a speed backwards", "allowed: 0 m/s and above")
+            raise _custom(error.problem, error.hint + words) from None
+        if check.endswith("speed") and not 0 <= number <= MOST_SPEED:
+            problem = "is a speed backwards" if number < 0 else "m/s is out of range"
+            raise _custom(f"{number:g} {problem}", f"allowed: 0 ... {MOST_SPEED:g} m/s")
         if check == "not negative" and number < 0:
             raise _custom(f"{number:g} is negative", "allowed: 0 and above")
         if check == "positive" and number <= 0:
@@ -67,7 +72,7 @@ def _custom(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> Pydanti
 
 
 Tilt: TypeAlias = Annotated[float, _reads(ANGLE, "tilt"), _schema(ANGLE)]
-Trail: TypeAlias = Annotated[float, _reads(PURE)]
+Trail: TypeAlias = Annotated[float, _reads(PURE, "trail")]
 Speed: TypeAlias = Annotated[float, _reads(SPEED, "speed"), _schema(SPEED)]
 UpperSpeed: TypeAlias = Annotated[float, _reads(SPEED, "upper speed"), _schema(SPEED, "unbounded")]
 Within: TypeAlias = Annotated[float, _reads(SPEED, "positive"), _schema(SPEED)]
@@ -152,12 +157,15 @@ class Grid(_Strict):
         return (axis.start, axis.stop) if isinstance(axis, Range) else (axis.values[0], axis.values[-1])
 
 
+_ABSENT: Any = None  # a key that may be missing, while null would be no number
+
+
 class Plane(_Strict):
     """A picture across one axis, at one of its values."""
 
-    lam: Tilt | None = None
-    sigma: Trail | None = None
-    V: Speed | None = None
+    lam: Tilt = _ABSENT
+    sigma: Trail = _ABSENT
+    V: Speed = _ABSENT
 
     @model_validator(mode="after")
     def _one(self) -> Plane:
@@ -281,8 +289,8 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
         stream = io.StringIO()
         YAML().dump(document.data, stream)
         text = stream.getvalue()
-    data = _plain(document.data)
     try:
+        data = _plain(document.data)
         data.setdefault("output", f"out/{Path(document.file).stem}")
         if "bicycle" in data:
             data["bicycle"] = _load_bicycle(data["bicycle"], Path(document.file).parent)
@@ -331,7 +339,10 @@ def _translated(error: ValidationError) -> InputError:
     if kind == "bikestab":
         return InputError(context["problem"], key=context["key"] or key, hint=context["hint"])
     if kind == "extra_forbidden":
-        return InputError("unknown key", key=key, hint=nearest(str(key[-1]), _known(key[:-1])))
+        known = _known(key[:-1])
+        if key[0] == "grid" and first["loc"][2:3] in (("range",), ("values",)):
+            known = ["values"] if first["loc"][2] == "values" else known
+        return InputError("unknown key", key=key, hint=nearest(str(key[-1]), known))
     if kind == "missing":
         return InputError("missing", key=key, hint=f"needed here: {', '.join(_known(key[:-1]))}")
     if kind == "literal_error":
@@ -368,7 +379,7 @@ def _known(key: tuple[str | int, ...]) -> list[str]:
 
 
 def _override(data: Any, override: str) -> tuple[str | int, ...]:
-    """Put ``key.path=value`` into the YAML tree; returns the path."""
+    """Put ``key.path=value`` into the YAML tree; returns the path, or its part down to the first new key."""
     name, equals, text = override.partition("=")
     path = [part.strip() for part in name.split(".")]
     if not equals or not all(path):
@@ -377,7 +388,7 @@ def _override(data: Any, override: str) -> tuple[str | int, ...]:
         )
     value = yamltext.parse(f"value: {text}", f"--set {override}").data["value"]
     key: list[str | int] = []
-    node = data
+    node, made = data, False
     for i, part in enumerate(path):
         step: str | int = part
         if isinstance(node, list):
@@ -387,7 +398,9 @@ def _override(data: Any, override: str) -> tuple[str | int, ...]:
                 raise InputError(f"{dotted(key)} has no item {part}", place=f"--set {override}")
         elif not isinstance(node, dict):
             raise InputError(f"{dotted(key)} has no keys", place=f"--set {override}")
-        key.append(step)
+        if not made:
+            key.append(step)
+        made = made or (isinstance(node, dict) and step not in node)
         if i == len(path) - 1:
             node[step] = value
         else:
@@ -397,10 +410,12 @@ def _override(data: Any, override: str) -> tuple[str | int, ...]:
     return tuple(key)
 
 
-def _plain(node: Any) -> Any:
+def _plain(node: Any, key: tuple[str | int, ...] = ()) -> Any:
     """The YAML tree as plain dicts and lists, with text keys."""
     if isinstance(node, dict):
-        return {str(key): _plain(value) for key, value in node.items()}
+        return {str(k): _plain(value, (*key, str(k))) for k, value in node.items()}
     if isinstance(node, list):
-        return [_plain(value) for value in node]
+        return [_plain(value, (*key, i)) for i, value in enumerate(node)]
+    if isinstance(node, str) and ("\0" in node or node != node.encode(errors="ignore").decode()):
+        raise InputError(f"{shown(node)} has characters that no file can hold", key=key)
     return node

@@ -85,7 +85,9 @@ def draw_slice(volume: Volume, fixed: Axis, value: float) -> Figure:
 def save(figure: Figure, path: Path) -> None:
     """Write a PNG."""
     try:
-        figure.savefig(path, dpi=160, metadata={"Software": "bikestab"})
+        figure.savefig(
+            path, dpi=160, metadata={"Software" if path.suffix.lower() == ".png" else "Creator": "bikestab"}
+        )
     except OSError as error:
         if error.errno == 28:
             raise ScanError(f"{path}: the disk is full") from None
@@ -99,7 +101,8 @@ def save(figure: Figure, path: Path) -> None:
 
 def slice_name(fixed: str, value: float) -> str:
     """The file name of a slice's picture."""
-    return f"slice_{fixed}_{value:.6g}.png"
+    short = f"{value:.6g}"
+    return f"slice_{fixed}_{short if float(short) == value else repr(float(value))}.png"
 
 
 def _plane(volume: Volume, section: Section, x: Floats, y: Floats) -> Floats:
@@ -108,7 +111,7 @@ def _plane(volume: Volume, section: Section, x: Floats, y: Floats) -> Floats:
     at = int(np.argmin(np.abs(axis - section.value)))
     if "growth_rate" in volume.fields and abs(axis[at] - section.value) <= 1e-9 * (axis[-1] - axis[0]):
         index = tuple(at if name == section.fixed else slice(None) for name in AXES)
-        return np.transpose(volume.file["growth_rate"][index])  # the file's first axis is along x
+        return np.transpose(volume.read("growth_rate", index))  # the file's first axis is along x
     return growth_rate(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
 
 

@@ -61,7 +61,7 @@ def _quadratic(c: Floats) -> Floats:
     pair[:, ~(square > 0)] = np.nan
     pair[~(np.isfinite(pair) & (pair > 0))] = np.nan
     pair[0, c2 == 0] = np.nan
-    return np.sort(pair, axis=0)  # NaN sorts last
+    return np.sort(pair, axis=0)[: len(c) - 1]  # NaN sorts last
 
 
 def _bracketed(c: Floats) -> Floats:

@@ -47,9 +47,9 @@ def conditions(table: Floats, V: ArrayLike) -> Conditions:
 
 def violated(values: Conditions) -> NDArray[np.uint8]:
     """A bit mask: bit k = p_k ≤ 0 for k = 0…4, bit 5 = hurwitz3 ≤ 0; 0 means stable."""
-    mask = (values[0] <= 0).astype(np.uint8)
-    for bit, value in enumerate(values[1:], 1):
-        mask |= (value <= 0).view(np.uint8) << np.uint8(bit)
+    mask = np.zeros(np.shape(values[0]), np.uint8)
+    for bit, value in enumerate(values):
+        mask |= (~(value > 0)).view(np.uint8) << np.uint8(bit)  # NaN does not hold either
     return mask
 
 

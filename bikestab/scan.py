@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -29,6 +31,7 @@ from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.spectrum import growth_rate
 from bikestab.speeds import Intervals, critical_speeds, joined, stable_intervals
+from bikestab.units import shown
 from bikestab.volume import FIELDS, Volume, VolumeWriter, field_names, new_volume, parameters_text
 
 COLUMNS, SPEEDS = 64, 256  # a tile: values of λ and of σ, and speeds; multiples of the file's chunks
@@ -75,15 +78,32 @@ def run_scan(config: ScanConfig, *, force: bool = False, progress: Progress = la
             key=("output",),
             hint="choose another folder",
         ) from None
-    try:
-        with new_volume(path, config) as writer:
-            stable_points, found = _fill(writer, config, progress)
-            writer.file.attrs["stable_points"] = stable_points
-    except OSError as error:
-        if "No space left" in str(error) or "errno = 28" in str(error):
-            raise ScanError(f"{path}: the disk is full; nothing was left behind") from None
-        raise ScanError(f"{path}: {' '.join(str(error).split())[:200]}") from None
+    problem = ""
+    with _quiet_release():
+        try:
+            with new_volume(path, config) as writer:
+                stable_points, found = _fill(writer, config, progress)
+                writer.file.attrs["stable_points"] = stable_points
+        except OSError as error:
+            problem = " ".join(str(error).split())[:200]
+    if problem:
+        full = "No space left" in problem or "errno = 28" in problem
+        raise ScanError(f"{path}: {'the disk is full' if full else problem}; nothing was left behind")
     return ScanResult(path, True, points, stable_points, found)
+
+
+@contextmanager
+def _quiet_release() -> Iterator[None]:
+    """Let h5py keep to itself that the parts of a file which could not be written cannot be closed either.
+
+    It tells of that in both hooks; an exception of ours goes through neither.
+    """
+    hooks = sys.unraisablehook, sys.excepthook
+    sys.unraisablehook, sys.excepthook = lambda _: None, lambda *_: None
+    try:
+        yield
+    finally:
+        sys.unraisablehook, sys.excepthook = hooks
 
 
 def check_size(config: ScanConfig) -> None:
@@ -94,8 +114,12 @@ def check_size(config: ScanConfig) -> None:
     file = each * float(np.prod(shape, dtype=float)) + _BYTES_PER_COLUMN * float(shape[0] * shape[1])
     memory = _BYTES_PER_COLUMN * float(shape[0] * shape[1]) + 8 * float(sum(shape)) + 3e8
     folder = Path(config.output).absolute()
-    while not folder.exists():
-        folder = folder.parent
+    try:
+        while not folder.exists():
+            folder = folder.parent
+    except OSError as error:  # a name that is too long, say
+        problem = f"{shown(config.output)} is no folder name ({error.strerror})"
+        raise InputError(problem, key=("output",)) from None
     for needed, there, what in (
         (file, shutil.disk_usage(folder).free, f"of disk uncompressed, and {folder} has"),
         (memory, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"), "of memory, and this machine has"),

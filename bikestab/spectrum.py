@@ -2,6 +2,8 @@
 
 The quartic is split into two real quadratics by the largest root of its resolvent cubic (Ferrari,
 Euler), and the split is polished by Newton's method on the coefficients themselves (Bairstow).
+Where one step is not enough (three eigenvalues nearly meet, or two pairs do) a matrix's eigenvalues
+are used after all; none of the points of a usual map are such.
 """
 
 from __future__ import annotations
@@ -13,6 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from bikestab.model import Floats
 from bikestab.routh import coefficients_at
+
+# What Newton's step leaves of the product's coefficients is the second-order terms of that step; the
+# split is good where these are no more than the rounding of a few operations.
+ROUNDING = 8 * np.finfo(float).eps
 
 
 class Factors(NamedTuple):
@@ -32,25 +38,38 @@ def growth_rate(table: Floats, V: ArrayLike) -> Floats:
     them by the square root of itself, and so does this: by some 1e-8 of their size.
     """
     p, q, r, t = quadratic_factors(table, V)
-    return np.maximum(_largest_real_part(p, q), _largest_real_part(r, t))
+    with np.errstate(all="ignore"):
+        growth = np.maximum(_largest_real_part(p, q), _largest_real_part(r, t))
+    return np.where(np.isnan(growth), np.inf, growth)
 
 
 def eigenvalues(table: Floats, V: ArrayLike) -> NDArray[np.complex128]:
     """The four eigenvalues [s⁻¹] at the speeds V [m/s], in no particular order; shape (4, *shape)."""
     p, q, r, t = quadratic_factors(table, V)
-    return np.array([*_roots(p, q), *_roots(r, t)])
+    with np.errstate(all="ignore"):
+        return np.array([*_roots(p, q), *_roots(r, t)])
 
 
 def quadratic_factors(table: Floats, V: ArrayLike) -> Factors:
-    """Two real quadratics whose product is the characteristic polynomial divided by p4."""
+    """Two real quadratics whose product is the characteristic polynomial divided by p4.
+
+    NaN where p4 = 0.
+    """
     p0, p1, p2, p3, p4 = coefficients_at(table, V)
     with np.errstate(all="ignore"):
         scale = 1 / p4
-        return _factors(p3 * scale, p2 * scale, p1 * scale, p0 * scale)
+        a, b, c, d = p3 * scale, p2 * scale, p1 * scale, p0 * scale
+        f, good = _polished(_split(a, b, c, d), a, b, c, d)
+    if not np.all(good):
+        f = Factors(*(np.atleast_1d(x) for x in f))
+        poor = np.atleast_1d(~good)
+        _replace(f, poor, *(np.atleast_1d(x)[poor] for x in (a, b, c, d)))
+        f = Factors(*(x.reshape(np.shape(a)) for x in f))
+    return f
 
 
-def _factors(a: Floats, b: Floats, c: Floats, d: Floats) -> Factors:
-    """Factors of s⁴ + a s³ + b s² + c s + d."""
+def _split(a: Floats, b: Floats, c: Floats, d: Floats) -> Factors:
+    """Factors of s⁴ + a s³ + b s² + c s + d, before polishing."""
     # s = y − a/4: y⁴ + P y² + Q y + R
     e = 0.25 * a
     ee = e * e
@@ -58,26 +77,30 @@ def _factors(a: Floats, b: Floats, c: Floats, d: Floats) -> Factors:
     Q = c + 2 * e * (4 * ee - b)
     R = d + e * (e * (b - 3 * ee) - c)
     # y² ± k y + …: u = k² is the largest root of u³ + 2P u² + (P² − 4R) u − Q² = 0, never negative
-    u = np.maximum(_largest_cubic_root(2 * P, P * P - 4 * R, -Q * Q), 0)
+    R4 = 4 * R
+    u = np.maximum(_largest_cubic_root(2 * P, P * P - R4, -Q * Q), 0)
     k = np.sqrt(u)
     total = P + u  # sum of the two constant terms; their difference is Q/k, and its square total² − 4R
-    square = np.maximum(total * total - 4 * R, 0)
+    square = np.maximum(total * total - R4, 0)
     safe = u * (np.abs(P) + np.sqrt(np.abs(R))) > square  # then the quotient is the better of the two
     difference = np.where(safe, Q / np.where(safe, k, 1), np.copysign(np.sqrt(square), Q))
-    q, t = 0.5 * (total - difference), 0.5 * (total + difference)
     # back to s: y² + k y + q → s² + (k + 2e) s + …
-    p, r = k + 2 * e, 2 * e - k
-    q, t = q + e * (k + e), t + e * (e - k)
-    return _polished(Factors(p, q, r, t), a, b, c, d)
+    half_a = 2 * e
+    q, t = 0.5 * (total - difference) + e * (k + e), 0.5 * (total + difference) + e * (e - k)
+    return Factors(half_a + k, q, half_a - k, t)
 
 
-def _polished(f: Factors, a: Floats, b: Floats, c: Floats, d: Floats) -> Factors:
-    """One step of Newton's method on the four equations that the product's coefficients give."""
+def _polished(f: Factors, a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Factors, NDArray[np.bool_]]:
+    """One step of Newton's method on the equations that the product's coefficients give.
+
+    Also where its result is good: where the equations' second-order terms are within rounding.
+    """
     p, q, r, t = f
+    pr, pt, qr, qt = p * r, p * t, q * r, q * t
     ea = a - (p + r)
-    eb = b - (q + t + p * r)
-    ec = c - (p * t + q * r)
-    ed = d - q * t
+    eb = b - (q + t + pr)
+    ec = c - (pt + qr)
+    ed = d - qt
     # Solve dp + dr = ea, dq + dt + r dp + p dr = eb, t dp + r dq + q dr + p dt = ec, t dq + q dt = ed
     m, n = p - r, q - t
     g1 = eb - p * ea
@@ -91,7 +114,29 @@ def _polished(f: Factors, a: Floats, b: Floats, c: Floats, d: Floats) -> Factors
     dq = (x11 * g3 - x21 * g2) / det
     dr = ea - dp
     dt = g1 + m * dp - dq
-    return Factors(p + dp, q + dq, r + dr, t + dt)
+    good = np.abs(dp * dr) <= ROUNDING * (np.abs(q) + np.abs(t) + np.abs(pr))
+    good &= np.abs(dp * dt + dq * dr) <= ROUNDING * (np.abs(pt) + np.abs(qr))
+    good &= np.abs(dq * dt) <= ROUNDING * np.abs(qt)
+    return Factors(p + dp, q + dq, r + dr, t + dt), good
+
+
+def _replace(f: Factors, poor: NDArray[np.bool_], a: Floats, b: Floats, c: Floats, d: Floats) -> None:
+    """Put the factors that a matrix's eigenvalues give where the split was poor.
+
+    That is where three or four eigenvalues nearly meet, or differ greatly in size.
+    """
+    known = np.isfinite(a) & np.isfinite(b) & np.isfinite(c) & np.isfinite(d)
+    companion = np.zeros((len(a), 4, 4))
+    companion[:, [1, 2, 3], [0, 1, 2]] = 1
+    companion[:, 0] = -np.stack([a, b, c, d], axis=1)
+    companion[~known] = 0
+    z = np.linalg.eigvals(companion).astype(complex).T
+    z = np.take_along_axis(z, np.lexsort((z.real, np.abs(z.imag)), axis=0), axis=0)  # pairs side by side
+    with np.errstate(all="ignore"):
+        pairs = Factors(-(z[0] + z[1]).real, (z[0] * z[1]).real, -(z[2] + z[3]).real, (z[2] * z[3]).real)
+        polished, good = _polished(pairs, a, b, c, d)
+    for out, rough, fine in zip(f, pairs, polished, strict=True):
+        out[poor] = np.where(known, np.where(good, fine, rough), np.nan)
 
 
 def _largest_cubic_root(a: Floats, b: Floats, c: Floats) -> Floats:

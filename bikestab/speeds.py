@@ -48,11 +48,11 @@ def stable_intervals(table: Floats) -> Intervals:
     """
     shape = table.shape[2:]
     cells = table.reshape(5, 4, -1)
-    parts = [_intervals(cells[..., i : i + _CHUNK]) for i in range(0, cells.shape[-1], _CHUNK)]
+    parts = [_intervals(cells[..., i : i + _CHUNK]) for i in range(0, max(cells.shape[-1], 1), _CHUNK)]
     fields = [
         joined([list(field)], empty) for field, empty in zip(zip(*parts, strict=True), _EMPTY, strict=True)
     ]
-    return Intervals(*(field.reshape(*shape, -1) for field in fields))
+    return Intervals(*(field.reshape(*shape, field.shape[-1]) for field in fields))
 
 
 def critical_speeds(table: Floats) -> dict[str, Floats]:

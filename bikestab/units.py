@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from numbers import Real
 
 from bikestab.errors import InputError
 
@@ -24,7 +25,7 @@ def quantity(value: object, units: dict[str, float], *, key: tuple[str | int, ..
         match = _QUANTITY.fullmatch(value)
         if match and (not match[2] or match[2] in units):
             value = float(match[1]) * units.get(match[2], 1.0)
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if type(value).__name__ in ("bool", "bool_") or not isinstance(value, Real):
         raise InputError(f"{shown(value)} is not a number", key=key, hint=f"allowed: {what}")
     try:
         number = float(value)
@@ -37,6 +38,9 @@ def quantity(value: object, units: dict[str, float], *, key: tuple[str | int, ..
 
 def shown(value: object) -> str:
     """A value as it is quoted in a message: short, on one line."""
-    text = "nothing" if value is None else repr(value) if isinstance(value, str) else str(value)
+    try:
+        text = "nothing" if value is None else repr(value) if isinstance(value, str) else str(value)
+    except ValueError:  # Python does not print integers of thousands of digits
+        return "an integer of thousands of digits"
     text = " ".join(text.split())
     return text if len(text) <= 60 else text[:57] + "..."

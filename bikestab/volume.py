@@ -55,6 +55,7 @@ def new_volume(path: Path, config: ScanConfig) -> Iterator[VolumeWriter]:
             writer = VolumeWriter(file, config)
             yield writer
             writer.finish(config)
+            file.flush()
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
@@ -201,9 +202,17 @@ class Volume:
         value = self.file.attrs[name]
         return value.decode() if isinstance(value, bytes) else str(value)
 
+    def read(self, name: str, where: tuple[int | slice, ...] = ()) -> NDArray[Any]:
+        """A dataset or a part of it; InputError where the file is damaged there."""
+        try:
+            return self.file[name][where]
+        except OSError:
+            problem = f"is damaged: {name} cannot be read"
+            raise InputError(problem, place=str(self.path), hint="scan again with --force") from None
+
     def axis(self, name: Axis) -> Floats:
         """The values of λ [rad], σ [1] or V [m/s]."""
-        return self.file[name][()]
+        return self.read(name)
 
     @property
     def fields(self) -> list[str]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from bikestab.errors import InputError
+from bikestab.units import shown
 
 
 @dataclass(frozen=True)
@@ -23,9 +24,11 @@ class Document:
         node, line = self.data, 1
         for part in key:
             try:
+                if isinstance(node, dict):  # a key may be a number or a date in YAML
+                    part = next(key for key in node if str(key) == str(part))
                 position = node.lc.data[part]
                 node = node[part]
-            except (AttributeError, KeyError, IndexError, TypeError):
+            except (AttributeError, KeyError, IndexError, TypeError, StopIteration):
                 break
             line = position[0] + 1
         return line
@@ -69,8 +72,16 @@ def parse(text: str, file: str) -> Document:
     except YAMLError as error:
         problem = " ".join(str(error).split())[:120]
         raise InputError(f"not valid YAML: {problem}", place=file) from None
+    except RecursionError:
+        raise InputError("is nested too deeply", place=file) from None
+    except ValueError as error:  # such as a number that Python does not read
+        problem = " ".join(str(error).split(";")[0].split())
+        raise InputError(f"not valid YAML: {problem[:120]}", place=file) from None
     if not isinstance(data, dict):
-        found = "an empty document" if data is None else f"a {type(data).__name__}"
+        found = (
+            "an empty document" if data is None else "a list" if isinstance(data, list)
+            else "text" if isinstance(data, str) else shown(data)
+        )  # fmt: skip
         raise InputError(
             f"holds {found}, not keys with values",
             place=file,

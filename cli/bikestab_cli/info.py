@@ -55,7 +55,7 @@ def _summary(volume: Any) -> dict[str, Any]:
     from bikestab.volume import uniform
 
     file = volume.file
-    number = np.count_nonzero(file["upper"][()], axis=-1)
+    number = np.count_nonzero(volume.read("upper"), axis=-1)
     points = int(np.prod([len(file[name]) for name in AXES]))
     attributes = file.attrs
     return {
@@ -70,7 +70,7 @@ def _summary(volume: Any) -> dict[str, Any]:
         "designs": int(number.size),
         "designs_with_a_stable_speed": int(np.count_nonzero(number)),
         "designs_with_several_intervals": int(np.count_nonzero(number > 1)),
-        "designs_stable_without_upper_limit": int(np.count_nonzero(np.isinf(file["V2"][()]).any(axis=-1))),
+        "designs_stable_without_upper_limit": int(np.count_nonzero(np.isinf(volume.read("V2")).any(axis=-1))),
         "largest_boundary_difference": float(file["boundary"].attrs["largest_difference"]),
         "bikestab_version": volume.text("bikestab_version"),
         "config_sha256": volume.text("config_sha256"),
@@ -82,7 +82,7 @@ def _summary(volume: Any) -> dict[str, Any]:
                 "unit": file[name].attrs["units"].decode(),
                 "uniform": uniform(values),
             }
-            for name, values in ((name, file[name][()]) for name in AXES)
+            for name, values in ((name, volume.axis(name)) for name in AXES)
         },
         "warnings": volume.text("warnings").splitlines(),
     }

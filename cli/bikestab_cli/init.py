@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from importlib import resources
+import json
+import re
 from pathlib import Path
 
 import click
@@ -28,11 +29,15 @@ def command(path: str, name: str, force: bool) -> None:
     from bikestab.bicycle import Bicycle
 
     bicycle = Bicycle.load(name)
-    text = resources.files("bikestab_cli").joinpath("template.yaml").read_text("utf-8")
-    text = text.replace("BICYCLE", name).replace("OUTPUT", f"out/{Path(path).stem}")
-    lam = 0.2 if bicycle.lam is None else bicycle.lam
-    sigma = 0.08 if bicycle.sigma is None else bicycle.sigma
-    text = text.replace("LAM", f"{lam:.6g}").replace("SIGMA", f"{sigma:.6g}")
+    values = {
+        "TITLE": json.dumps(f"Stable motion of {bicycle.name}", ensure_ascii=False),
+        "BICYCLE": json.dumps(name, ensure_ascii=False),  # quoted, as any name may need it in YAML
+        "OUTPUT": json.dumps(f"out/{Path(path).stem}", ensure_ascii=False),
+        "LAM": f"{0.2 if bicycle.lam is None else bicycle.lam:.6g}",
+        "SIGMA": f"{0.08 if bicycle.sigma is None else bicycle.sigma:.6g}",
+    }
+    text = (Path(__file__).parent / "template.yaml").read_text("utf-8")
+    text = re.sub("@([A-Z]+)@", lambda match: values[match[1]], text)
     target = Path(path)
     try:
         with target.open("w" if force else "x", encoding="utf-8") as file:

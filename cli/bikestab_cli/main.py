@@ -11,7 +11,7 @@ import click
 from bikestab import __version__
 from bikestab.errors import BikestabError, InputError, nearest
 
-COMMANDS = ("scan", "vrange", "slice", "check", "info", "bicycles", "init", "schema")
+COMMANDS = ("scan", "vrange", "eigen", "slice", "check", "info", "bicycles", "init", "schema")
 
 
 class _Lazy(click.Group):
@@ -52,28 +52,59 @@ def cli() -> None:
 
 def main() -> None:
     """Run the command line; errors are one to three lines on stderr, never a traceback."""
+    if sys.stdout is None:  # closed by the caller
+        sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  # a device, open to the end
     try:
-        code = cli.main(prog_name="bikestab", standalone_mode=False)
+        code = _run(sys.argv[1:])
         sys.stdout.flush()
-    except click.UsageError as error:
-        help_of = error.ctx.command_path if error.ctx else "bikestab"
-        _fail(2, error.format_message(), f"see '{help_of} --help'")
-    except click.ClickException as error:
-        _fail(2, error.format_message())
-    except (click.Abort, KeyboardInterrupt):
-        _fail(130, "interrupted")
-    except InputError as error:
-        _fail(2, str(error))
-    except BikestabError as error:
-        _fail(3, str(error))
-    except MemoryError:
-        _fail(3, "not enough memory", "take fewer values, or fewer fields")
     except BrokenPipeError:  # the reader of a pipe, such as head, has had enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(0)
-    sys.exit(code if isinstance(code, int) else 0)
-
-
-def _fail(code: int, message: str, hint: str = "") -> None:
-    click.echo("error: " + "\n  ".join([*message.split("\n"), *([hint] if hint else [])]), err=True)
+        _drop_output()
+        code = 0
+    except OSError as error:
+        _drop_output()
+        code = _tell(3, f"could not finish: {error.strerror or error}")
+    except _Unfinished:
+        os._exit(3)  # at a regular exit HDF5 crashes over a file that it could not write
     sys.exit(code)
+
+
+class _Unfinished(Exception):
+    """The error has been told; nothing is left to do."""
+
+
+def _run(args: list[str]) -> int:
+    try:
+        with cli.make_context("bikestab", args) as context:
+            cli.invoke(context)
+    except click.exceptions.Exit as end:
+        return end.exit_code
+    except click.exceptions.NoArgsIsHelpError as error:
+        click.echo(error.format_message(), err=True)
+        return 2
+    except click.UsageError as error:
+        words = error.ctx.command_path if error.ctx else "bikestab"
+        if words == "bikestab" and args and args[0] in COMMANDS:
+            words = f"bikestab {args[0]}"
+        return _tell(2, error.format_message(), f"see '{words} --help'")
+    except click.ClickException as error:
+        return _tell(2, error.format_message())
+    except (click.Abort, KeyboardInterrupt):
+        return _tell(130, "interrupted")
+    except InputError as error:
+        return _tell(2, str(error))
+    except BikestabError as error:
+        _tell(3, str(error))
+        raise _Unfinished from None
+    except MemoryError:
+        return _tell(3, "not enough memory", "take fewer values, or fewer fields")
+    return 0
+
+
+def _tell(code: int, message: str, hint: str = "") -> int:
+    click.echo("error: " + "\n  ".join([*message.split("\n"), *([hint] if hint else [])]), err=True)
+    return code
+
+
+def _drop_output() -> None:
+    """Let what is still buffered for stdout go nowhere, where it fails no second time."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

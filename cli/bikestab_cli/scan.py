@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import signal
 import sys
 import time
 from collections.abc import Iterator
@@ -76,16 +78,31 @@ def command(configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, a
 
 @contextmanager
 def _progress(name: str, config: ScanConfig) -> Iterator[Progress]:
-    """A bar on a terminal; nothing elsewhere."""
-    import math
+    """A bar on a terminal, nothing elsewhere; and Ctrl-C between two tiles.
 
-    if not sys.stderr.isatty():
-        yield lambda _: None
-        return
-    with click.progressbar(
-        length=math.prod(config.grid.shape), label=name, file=sys.stderr, show_eta=True, width=30
-    ) as bar:
-        yield bar.update
+    Python raises KeyboardInterrupt wherever it is, which may be a place in h5py that drops it.
+    """
+    stops: list[int] = []
+
+    def check() -> None:
+        if stops:
+            raise KeyboardInterrupt
+
+    handler = signal.signal(signal.SIGINT, lambda number, _: stops.append(number))
+    try:
+        with click.progressbar(
+            length=math.prod(config.grid.shape), label=name, file=sys.stderr, show_eta=True, width=30,
+            hidden=not sys.stderr.isatty(),
+        ) as bar:  # fmt: skip
+
+            def progress(points: int) -> None:
+                check()
+                bar.update(points)
+
+            yield progress
+        check()
+    finally:
+        signal.signal(signal.SIGINT, handler)
 
 
 def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:

@@ -38,5 +38,7 @@ def command(volume: str, lam: float | None, sigma: float | None, V: float | None
     ((fixed, value),) = given.items()
     with Volume(volume) as opened:
         path = Path(output) if output else opened.path.parent / slice_name(fixed, value)
+        if not path.suffix:
+            path = path.with_name(path.name + ".png")
         save(draw_slice(opened, fixed, value), path)  # type: ignore[arg-type]  # one of the three axes
     click.echo(str(path))

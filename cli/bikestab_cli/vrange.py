@@ -57,17 +57,18 @@ def command(
       bikestab vrange --bicycle meijaard2007 --lam 20deg --json
       bikestab vrange --lam 0.1 --sigma 0.08 --delta 1
     """
-    from bikestab.bicycle import check_tilt
+    from bikestab.bicycle import check_tilt, check_trail
     from bikestab.errors import InputError
 
     bicycle = load_bicycle(bicycle_name, delta)
     lams = _given("lam", lam, bicycle.lam, bicycle)
     sigmas = _given("sigma", sigma, bicycle.sigma, bicycle)
-    for value in lams:
-        try:
-            check_tilt(value, ())
-        except InputError as error:
-            raise click.BadParameter(f"{error.problem}; {error.hint}", param_hint="--lam") from None
+    for name, check, values in (("--lam", check_tilt, lams), ("--sigma", check_trail, sigmas)):
+        for value in values:
+            try:
+                check(value, ())
+            except InputError as error:
+                raise click.BadParameter(f"{error.problem}; {error.hint}", param_hint=name) from None
     results = _results(bicycle, lams, sigmas, model)
     if as_json:
         print_json({"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "results": results})

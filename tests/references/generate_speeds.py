@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import random
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -66,18 +67,18 @@ def two_parts(machine: dict[str, float]) -> dict[str, Any]:
         radius = n.get("R")
         return {"D1": mpf(0), "D2": mpf(0), "R1": radius, "R2": radius, **n}
     p = {"c": n["w"], "g": n["g"], "C1": n["IRyy"], "R1": n["rR"], "C2": n["IFyy"], "R2": n["rF"]}
-    bodies = {
-        "1": [("R", mpf(0), n["rR"], n["IRxx"], n["IRxx"], 0), ("B", n["xB"], -n["zB"], n["IBxx"], n["IBzz"], n["IBxz"])],
-        "2": [("H", n["xH"], -n["zH"], n["IHxx"], n["IHzz"], n["IHxz"]), ("F", n["w"], n["rF"], n["IFxx"], n["IFxx"], 0)],
-    }  # fmt: skip
-    for i, pair in bodies.items():
-        mass = sum(n["m" + body] for body, *_ in pair)
-        l = sum(n["m" + body] * x for body, x, *_ in pair) / mass  # noqa: E741  # the paper's letter
-        h = sum(n["m" + body] * z for body, _, z, *_ in pair) / mass
+    rear = "R", mpf(0), n["rR"], n["IRxx"], n["IRxx"], 0
+    body = "B", n["xB"], -n["zB"], n["IBxx"], n["IBzz"], n["IBxz"]
+    fork = "H", n["xH"], -n["zH"], n["IHxx"], n["IHzz"], n["IHxz"]
+    front = "F", n["w"], n["rF"], n["IFxx"], n["IFxx"], 0
+    for i, pair in (("1", (rear, body)), ("2", (fork, front))):
+        mass = sum(n["m" + name] for name, *_ in pair)
+        l = sum(n["m" + name] * x for name, x, *_ in pair) / mass  # noqa: E741  # the paper's letter
+        h = sum(n["m" + name] * z for name, _, z, *_ in pair) / mass
         p |= {"m" + i: mass, "l" + i: l, "h" + i: h}
-        p["A" + i] = sum(xx + n["m" + body] * (z - h) ** 2 for body, x, z, xx, zz, xz in pair)
-        p["B" + i] = sum(zz + n["m" + body] * (x - l) ** 2 for body, x, z, xx, zz, xz in pair)
-        p["D" + i] = sum(xz + n["m" + body] * (x - l) * (z - h) for body, x, z, xx, zz, xz in pair)
+        p["A" + i] = sum(xx + n["m" + name] * (z - h) ** 2 for name, x, z, xx, zz, xz in pair)
+        p["B" + i] = sum(zz + n["m" + name] * (x - l) ** 2 for name, x, z, xx, zz, xz in pair)
+        p["D" + i] = sum(xz + n["m" + name] * (x - l) * (z - h) for name, x, z, xx, zz, xz in pair)
     p["D2"] *= -1
     return p
 
@@ -181,9 +182,8 @@ def critical_speeds(table: Polynomial) -> list[Edge]:
         for j, x in poly.items():
             if abs(x.value) > x.size * mpf(10) ** (10 - DIGITS):  # else zero: its terms cancel
                 dense[j] = x.value
-        for V in roots(dense):
-            if mp.re(V) > 0 and abs(mp.im(V)) < mp.re(V) * mpf(10) ** (-DIGITS // 2):
-                found.append(Edge(mp.re(V), kind, condition_number(poly, mp.re(V))))
+        real = [mp.re(V) for V in roots(dense) if abs(mp.im(V)) < abs(V) * mpf(10) ** (-DIGITS // 2)]
+        found += [Edge(V, kind, condition_number(poly, V)) for V in real if V > 0]
     return sorted(found)
 
 
@@ -195,7 +195,7 @@ def stable_intervals(table: Polynomial) -> list[tuple[Edge, Edge]]:
     """Every stretch between two critical speeds in which all eigenvalues have a negative real part."""
     edges = [Edge(mpf(0), "rest", mpf(0)), *critical_speeds(table), Edge(mp.inf, "unbounded", mpf(0))]
     stretches = []
-    for lower, upper in zip(edges, edges[1:], strict=False):
+    for lower, upper in pairwise(edges):
         inside = (lower.V + upper.V) / 2 if mp.isfinite(upper.V) else 2 * lower.V + 1
         if max(mp.re(s) for s in eigenvalues(table, inside)) < 0:
             stretches.append((lower, upper))
@@ -206,10 +206,11 @@ def result(machine: dict[str, float], lam: float, sigma: float, delta: float, mo
     """The intervals of one case as they stand in the file: V1, lower, κ1, V2, upper, κ2."""
     with mp.workdps(DIGITS):
         found = stable_intervals(polynomial(machine, lam, sigma, delta, model))
-        return [
-            [x for edge in pair for x in (mp.nstr(edge.V, 22), edge.kind, float(f"{float(edge.condition):.2g}"))]
-            for pair in found
-        ]  # fmt: skip
+        return [[x for edge in pair for x in _rounded(edge)] for pair in found]
+
+
+def _rounded(edge: Edge) -> tuple[str, str, float]:
+    return mp.nstr(edge.V, 22), edge.kind, float(mp.nstr(edge.condition, 2))
 
 
 def random_machine(rng: random.Random) -> dict[str, float]:
@@ -225,43 +226,48 @@ def random_machine(rng: random.Random) -> dict[str, float]:
     if rng.random() < 0.5:
         m2, R = between(2, 12), between(0.2, 0.4)
         return {
-            "c": between(0.8, 1.5), "R": R, "m1": between(20, 200), "l1": between(0.2, 0.6), "h1": between(0.5, 1.1),
-            "A1": between(2, 12), "B1": between(2, 12), "D1": between(-1, 2), "C1": between(0, 0.2), "g": 9.81,
-            "m2": m2, "l2": between(0.8, 1.3), "h2": between(0.3, 0.7), "A2": between(0.1, 0.5), "B2": between(0.1, 0.4),
-            "D2": between(-0.1, 0.1), "C2": between(0, 0.5 * m2 * R**2),
+            "c": between(0.8, 1.5), "R": R, "g": 9.81, "m1": between(20, 200), "l1": between(0.2, 0.6),
+            "h1": between(0.5, 1.1), "A1": between(2, 12), "B1": between(2, 12), "D1": between(-1, 2),
+            "C1": between(0, 0.2), "m2": m2, "l2": between(0.8, 1.3), "h2": between(0.3, 0.7),
+            "A2": between(0.1, 0.5), "B2": between(0.1, 0.4), "D2": between(-0.1, 0.1),
+            "C2": between(0, 0.5 * m2 * R**2),
         }  # fmt: skip
-    w, mR, mF, rR, rF = between(0.9, 1.5), between(1, 10), between(1, 10), between(0.2, 0.4), between(0.2, 0.4)
+    w, mR, mF, rR, rF = (between(*x) for x in ((0.9, 1.5), (1, 10), (1, 10), (0.2, 0.4), (0.2, 0.4)))
     IRyy, IRxx = wheel(mR, rR)
     IFyy, IFxx = wheel(mF, rF)
     IHxx, IHzz = between(0.05, 0.5), between(0.005, 0.2)
+    IHxz = float(f"{-0.5 * math.sqrt(IHxx * IHzz):.3g}")
     return {
-        "w": w, "c": between(0, 0.15), "lam": between(0, 0.6), "g": 9.81, "rR": rR, "mR": mR, "IRxx": IRxx, "IRyy": IRyy,
-        "xB": between(0.2, 0.6), "zB": -between(0.5, 1.1), "mB": between(20, 200), "IBxx": between(3, 12),
-        "IBzz": between(2, 10), "IBxz": between(-2, 2), "xH": between(w - 0.3, w), "zH": -between(0.4, 0.9),
-        "mH": between(1, 10), "IHxx": IHxx, "IHzz": IHzz, "IHxz": float(f"{-0.5 * math.sqrt(IHxx * IHzz):.3g}"),
+        "w": w, "c": between(0, 0.15), "lam": between(0, 0.6), "g": 9.81, "rR": rR, "mR": mR, "IRxx": IRxx,
+        "IRyy": IRyy, "xB": between(0.2, 0.6), "zB": -between(0.5, 1.1), "mB": between(20, 200),
+        "IBxx": between(3, 12), "IBzz": between(2, 10), "IBxz": between(-2, 2), "xH": between(w - 0.3, w),
+        "zH": -between(0.4, 0.9), "mH": between(1, 10), "IHxx": IHxx, "IHzz": IHzz, "IHxz": IHxz,
         "rF": rF, "mF": mF, "IFxx": IFxx, "IFyy": IFyy,
     }  # fmt: skip
 
 
 def cases() -> list[dict[str, Any]]:
     """The questions, without their answers."""
-    points = [  # the table of docs/theory.md, its other claims, and the design of the benchmark
-        (0.20, 0.08, 0), (0.30, 0.10, 0), (0.05, 0.15, 0), (0.015, 0.1475, 0), (0.10, 0.08, 0), (0.10, 0.08, 1),
-        (0.04834835, 0.15, 0), (0.20, 0.08, 0.5), (0.0, 0.2, 0),
+    points = [  # the table of docs/theory.md and its other claims
+        (0.20, 0.08, 0), (0.30, 0.10, 0), (0.05, 0.15, 0), (0.015, 0.1475, 0), (0.10, 0.08, 0),
+        (0.10, 0.08, 1), (0.04834835, 0.15, 0), (0.20, 0.08, 0.5), (0.0, 0.2, 0),
     ]  # fmt: skip
-    preset = [("dikarev1981", PAPER, *point, "refined") for point in points]
-    preset += [("dikarev1981", PAPER, *point, "unrefined") for point in points[:2]]
     own = BENCHMARK["lam"], BENCHMARK["c"] / BENCHMARK["w"]
-    preset += [("meijaard2007", BENCHMARK, *own, delta, "refined") for delta in (0, 0.5, 2)]
-    preset += [("meijaard2007", BENCHMARK, *own, 0, "unrefined"), ("meijaard2007", BENCHMARK, 0.1, 0.05, 0, "refined")]
+    found = [("dikarev1981", PAPER, *point, "refined") for point in points]
+    found += [("dikarev1981", PAPER, *point, "unrefined") for point in points[:2]]
+    found += [("meijaard2007", BENCHMARK, *own, delta, "refined") for delta in (0, 0.5, 2)]
+    found += [("meijaard2007", BENCHMARK, *own, 0, "unrefined")]
+    found += [("meijaard2007", BENCHMARK, 0.1, 0.05, 0, "refined")]
     rng = random.Random(1981)
     for number in range(22):
         machine = random_machine(rng)
         lam, sigma = float(f"{rng.uniform(0, 0.5):.3g}"), float(f"{rng.uniform(0, 0.15):.3g}")
-        for delta, model in ((0, "refined"), (float(f"{rng.uniform(0.1, 3):.2g}"), rng.choice(["refined", "unrefined"]))):
-            preset.append((f"random {number}", machine, lam, sigma, delta, model))
+        delta, model = float(f"{rng.uniform(0.1, 3):.2g}"), rng.choice(["refined", "unrefined"])
+        found += [
+            (f"random {number}", machine, lam, sigma, *more) for more in ((0, "refined"), (delta, model))
+        ]
     keys = ("name", "machine", "lam", "sigma", "delta", "model")
-    return [dict(zip(keys, values, strict=True)) for values in preset]
+    return [dict(zip(keys, values, strict=True)) for values in found]
 
 
 if __name__ == "__main__":

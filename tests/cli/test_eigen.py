@@ -1,0 +1,194 @@
+"""bikestab eigen: table, JSON, CSV and picture, and what it refuses."""
+
+import csv
+import json
+from itertools import pairwise
+
+import click
+import numpy as np
+import pytest
+from bikestab_cli.eigen import command
+from click.testing import CliRunner
+from matplotlib.colors import to_rgb
+
+from bikestab.bicycle import Bicycle
+from bikestab.errors import BikestabError
+from bikestab.plot_modes import STYLES, draw_modes
+
+BENCHMARK = ("--bicycle", "meijaard2007")
+
+
+def run(*args):
+    result = CliRunner().invoke(command, args, standalone_mode=False)
+    if result.exception:
+        raise result.exception
+    return result.stdout
+
+
+def test_table():
+    out = run(*BENCHMARK, "--V", "0:10:3")
+    assert "stable from 4.292383 m/s (weave) to 6.024262 m/s (capsize)" in out
+    assert "weave: a complex pair on one side of 0.684283 m/s, two real eigenvalues on the other" in out
+    rows = out.splitlines()[-4:]
+    assert len({len(row) for row in rows}) == 1
+    assert [" ".join(row.split()) for row in rows] == [
+        "V [m/s] weave [1/s] capsize [1/s] castering [1/s]",
+        "0 5.530944, 3.131643 (real pair) -3.131643 -5.530944",
+        "5 -0.775342 ± 4.464868i -0.322866 -14.078390",
+        "10 -3.720168 ± 10.906811i 0.161053 -24.624596",
+    ]
+
+
+def test_table_where_names_have_no_meaning():
+    second = run("--lam", "0.1", "--sigma", "0.08", "--V", "0.5")
+    assert "no stable speed" in second
+    assert "1.833694 (real pair)  -2.881991 + 0.188016i (pair 2)  -2.881991 - 0.188016i (pair 2)" in second
+    mixed = run("--lam", "0.05", "--sigma", "0.15", "--V", "0")
+    assert "stable from 4.806507 m/s (weave) on, without upper limit" in mixed
+    assert "3.232112 (real), 0.000000 + 0.922212i (pair 2)  0.000000 - 0.922212i (pair 2)" in mixed
+
+
+def test_json():
+    found = json.loads(run(*BENCHMARK, "--V", "0:36km/h:11", "--json"))
+    assert {key: found[key] for key in ("bicycle", "model", "delta", "head_angle_deg")} == {
+        "bicycle": "meijaard2007", "model": "refined", "delta": 0.0, "head_angle_deg": 72.0,
+    }  # fmt: skip
+    assert found["trail"] == pytest.approx(0.08)
+    assert found["sigma"] == pytest.approx(0.08 / 1.02)
+    assert found["lam"] == pytest.approx(np.pi / 10)
+    (interval,) = found["intervals"]
+    assert interval == {
+        "V1": pytest.approx(4.29238253634111, abs=1e-12), "lower": "weave",
+        "V2": pytest.approx(6.02426201538837, abs=1e-12), "upper": "capsize",
+    }  # fmt: skip
+    assert found["coalescences"] == [{"V": pytest.approx(0.68428307889246, abs=1e-12), "branches": [0, 1]}]
+    assert found["V"] == pytest.approx(list(range(11)))
+    assert [b["branch"] for b in found["branches"]] == ["weave", "weave", "capsize", "castering"]
+    upper, lower, capsize, castering = found["branches"]
+    assert upper["name"] == lower["name"] == ["real pair"] + ["weave"] * 10
+    assert (upper["re"][5], upper["im"][5]) == pytest.approx((-0.77534188219585, 4.46486771378823), abs=1e-11)
+    assert lower["im"][1:] == [-x for x in upper["im"][1:]]
+    assert capsize["re"][7] == pytest.approx(0.10268170574766, abs=1e-11)
+    assert castering["re"][10] == pytest.approx(-24.62459635017404, abs=1e-11)
+
+
+def test_unbounded_is_null_and_damping_and_model_count():
+    design = ("--lam", "0.05", "--sigma", "0.15", "--json", "--V", "5")
+    assert json.loads(run(*design))["intervals"][0]["V2"] is None
+    damped = json.loads(run(*design, "--delta", "1"))
+    assert damped["delta"] == 1
+    assert json.loads(run(*design, "--model", "unrefined"))["intervals"] == []
+
+
+def test_csv(tmp_path):
+    path = tmp_path / "modes.csv"
+    assert run(*BENCHMARK, "--V", "0:10:5", "--csv", str(path)) == f"{path}\n"
+    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
+    found = json.loads(run(*BENCHMARK, "--V", "0:10:5", "--json"))
+    assert len(rows) == 20
+    for i, row in enumerate(rows):
+        branch = found["branches"][int(row["branch"])]
+        assert float(row["V"]) == found["V"][i // 4]
+        assert row["name"] == branch["name"][i // 4]
+        assert (float(row["re"]), float(row["im"])) == (branch["re"][i // 4], branch["im"][i // 4])
+    assert [p.name for p in tmp_path.iterdir()] == ["modes.csv"]
+
+
+@pytest.mark.parametrize(("ending", "magic"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")])
+def test_picture(tmp_path, ending, magic):
+    path = tmp_path / f"modes.{ending}"
+    assert run(*BENCHMARK, "--V", "0:10:3", "-o", str(path)) == f"{path}\n"
+    assert path.read_bytes().startswith(magic)
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_files_are_named_in_json(tmp_path):
+    path = tmp_path / "modes.csv"
+    assert json.loads(run(*BENCHMARK, "--csv", str(path), "--json"))["csv"] == str(path)
+
+
+@pytest.mark.parametrize(
+    ("args", "says"),
+    [
+        (["--sigma", "0.08"], "has no lam of its own: give --lam, for example --lam 0.2"),
+        (["--lam", "0.2"], "has no sigma of its own"),
+        (["--lam", "2", "--sigma", "0.08"], "does not meet the ground"),
+        ([*BENCHMARK, "--V", "-1:5:3"], "-1 m/s is negative"),
+        ([*BENCHMARK, "--V", "0:5"], "neither a number nor START:STOP:NUM"),
+        ([*BENCHMARK, "--V", "5", "-o", "x.png"], "a picture needs a range"),
+        ([*BENCHMARK, "-o", "x"], "has no ending, such as .png"),
+        ([*BENCHMARK, "--delta", "-1"], "is negative"),
+        (["--bicycle", "nothing"], "there is no bicycle 'nothing'"),
+    ],
+)
+def test_refused(args, says):
+    with pytest.raises((click.UsageError, BikestabError)) as caught:
+        run(*args)
+    assert says in getattr(caught.value, "message", str(caught.value))
+
+
+@pytest.mark.parametrize(
+    ("option", "name", "says"),
+    [
+        ("-o", "modes.pnx", "modes.pnx: Format 'pnx' is not supported\ndid you mean 'png'?"),
+        ("-o", "missing/modes.png", "missing/modes.png: cannot be written (No such file or directory)"),
+        ("--csv", "missing/modes.csv", "missing/modes.csv: cannot be written (No such file or directory)"),
+        ("--csv", "folder", "folder: cannot be written (Is a directory)"),
+    ],
+)
+def test_nothing_is_left_of_what_cannot_be_written(tmp_path, monkeypatch, option, name, says):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(BikestabError) as caught:
+        run(*BENCHMARK, option, name)
+    assert str(caught.value) == says
+    assert [p.name for p in tmp_path.iterdir()] == ["folder"]
+
+
+def test_a_failure_keeps_the_file_that_was_there(tmp_path, monkeypatch):
+    path = tmp_path / "modes.csv"
+    path.write_text("before", encoding="utf-8")
+
+    def full(self, *args, **kwargs):
+        self.touch()
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.write_text", full)
+    with pytest.raises(BikestabError, match=r"modes\.csv: the disk is full"):
+        run(*BENCHMARK, "--csv", str(path))
+    assert path.read_bytes() == b"before"
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize(
+    ("lam", "sigma", "delta", "notes"),
+    [
+        (0.2, 0.08, 0, ["V₁ = 4.056 m/s (weave)", "V₂ = 4.636 m/s (capsize)"]),
+        (0.05, 0.15, 0, ["V₁ = 4.807 m/s (weave)", "no upper limit →"]),
+        (0.1, 0.08, 0, ["no stable speed"]),
+        (0.015, 0.1475, 0, ["V₁ = 3.6211 m/s (capsize)", "V₂ = 3.6328 m/s (weave)"]),
+        (0.1, 0.08, 1, ["V₁ = 3.302 m/s (weave)", "V₂ = 5.451 m/s (capsize)"]),
+    ],
+)
+def test_picture_tells_the_stable_speeds(lam, sigma, delta, notes):
+    figure = draw_modes(Bicycle.preset("dikarev1981").with_delta(delta), lam, sigma, 0, 10)
+    (ax,) = figure.axes
+    texts = [text.get_text() for text in ax.texts]
+    assert [text for text in texts if text in notes] == notes
+    assert {"weave", "capsize", "castering"} <= set(texts)
+    assert ("stable" in [text.get_text() for text in figure.legends[0].get_texts()]) == (len(notes) == 2)
+
+
+@pytest.mark.parametrize(("start", "stop", "note"), [(0, 3, "V₁ = 4.056 m/s (weave) →"),
+                                                     (6, 9, "← V₂ = 4.636 m/s (capsize)"),
+                                                     (4.2, 4.4, "V₂ = 4.636 m/s (capsize) →")])  # fmt: skip
+def test_stable_speeds_beyond_the_picture(start, stop, note):
+    (ax,) = draw_modes(Bicycle.preset("dikarev1981"), 0.2, 0.08, start, stop).axes
+    assert note in [text.get_text() for text in ax.texts]
+
+
+def test_colours_differ_in_greyscale():
+    grey = sorted(
+        np.dot(to_rgb(STYLES[n][0]), (0.299, 0.587, 0.114)) for n in ("weave", "capsize", "castering")
+    )
+    assert all(b - a > 0.15 for a, b in pairwise(grey))

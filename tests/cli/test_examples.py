@@ -1,0 +1,83 @@
+"""Every example in the help texts and in the README runs."""
+
+import re
+import shlex
+import shutil
+import sys
+from pathlib import Path
+
+import click
+import pytest
+from bikestab_cli.main import COMMANDS, cli, main
+
+ROOT = Path(__file__).parents[2]
+
+
+def from_help(command):
+    """The lines ``bikestab …`` after ``Example:`` or ``Examples:`` of a help text."""
+    text = command.get_help(click.Context(command))
+    _, found, examples = re.split(r"\n\s*(Examples?:)\s*\n", text)
+    assert found
+    lines = examples.split("\n\n")[0].splitlines()
+    return [line.strip() for line in lines if line.strip().startswith("bikestab ")]
+
+
+def from_markdown(path):
+    """The lines ``bikestab …`` in a file's sh and console blocks, in their order."""
+    lines = []
+    for kind, block in re.findall(r"^```(\w+)\n(.*?)^```", path.read_text("utf-8"), re.M | re.S):
+        if kind in ("sh", "bash", "console", "shell"):
+            for line in block.splitlines():
+                line = line.removeprefix("$ ").split(" && ")[-1]
+                if line.startswith("bikestab "):
+                    lines.append(line)
+    return lines
+
+
+def commands():
+    yield "bikestab", cli
+    for name in COMMANDS:
+        yield name, cli.get_command(click.Context(cli), name)
+
+
+PAGES = [page for page in (ROOT / "README.md", *ROOT.glob("docs/*.md")) if from_markdown(page)]
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch, capsys):
+    """Run lines one after the other in a folder with the configs; the first that fails is told."""
+    shutil.copytree(ROOT / "configs", tmp_path / "configs")
+    monkeypatch.chdir(tmp_path)
+
+    def run_lines(lines):
+        for line in lines:
+            command, _, target = line.partition(" > ")
+            monkeypatch.setattr(sys, "argv", shlex.split(command, comments=True))
+            with pytest.raises(SystemExit) as exit_:
+                main()
+            out, err = capsys.readouterr()
+            assert exit_.value.code == 0, f"{line}\n{err}"
+            assert out, line
+            if target:
+                Path(target.strip()).write_text(out, "utf-8")
+
+    return run_lines
+
+
+def test_there_are_examples_everywhere():
+    assert all(from_help(command) for _, command in commands())
+    assert len(from_markdown(ROOT / "README.md")) > 8
+
+
+@pytest.mark.parametrize("name", ["bikestab", *COMMANDS])
+def test_examples_of_a_help_text(run, name):
+    lines = from_help(dict(commands())[name])
+    assert name == "bikestab" or all(line.startswith(f"bikestab {name}") for line in lines)
+    if any("out/quick" in line for line in lines):
+        run(["bikestab scan configs/quick.yaml --set slices=[]"])
+    run(lines)
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
+def test_examples_of_a_page(run, path):
+    run(from_markdown(path))

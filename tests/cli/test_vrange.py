@@ -1,0 +1,238 @@
+"""bikestab vrange: digits, JSON, ranges, and what it says about mistakes."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+
+import pytest
+from bikestab_cli.main import main
+
+from bikestab.bicycle import Bicycle, preset_text
+from bikestab.nearest import nearest_stable
+
+
+@pytest.fixture
+def vrange(monkeypatch, capsys, tmp_path):
+    """Run the command in an empty folder: exit code, stdout, stderr without warnings."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*args):
+        monkeypatch.setattr(sys, "argv", ["bikestab", "vrange", *args])
+        with pytest.raises(SystemExit) as exit_:
+            main()
+        out, err = capsys.readouterr()
+        errors = [line for line in err.splitlines(keepends=True) if not line.startswith("warning: ")]
+        return exit_.value.code, out, "".join(errors)
+
+    return run
+
+
+def results(vrange, *args):
+    code, out, err = vrange(*args, "--json")
+    assert (code, err) == (0, "")
+    return json.loads(out)
+
+
+# --- results
+
+
+def test_the_benchmark_to_twelve_digits(vrange):
+    code, out, err = vrange("--bicycle", "meijaard2007")
+    assert (code, err) == (0, "")
+    head, row = out.splitlines()[-2:]
+    assert head.split("  ")[0] == "lam [rad]"
+    assert row.split() == [
+        "0.314159", "72.000", "0.0784314", "0.0800",
+        "4.292382536341", "(weave)", "6.024262015388", "(capsize)",
+    ]  # fmt: skip
+
+
+def test_json(vrange):
+    found = results(vrange, "--lam", "0.2", "--sigma", "0.08")
+    assert list(found) == ["bicycle", "model", "delta", "results"]
+    assert (found["bicycle"], found["model"], found["delta"]) == ("dikarev1981", "refined", 0.0)
+    (result,) = found["results"]
+    assert list(result) == ["lam", "sigma", "head_angle_deg", "trail", "intervals", "nearest"]
+    assert (result["lam"], result["sigma"], result["nearest"]) == (0.2, 0.08, None)
+    assert result["head_angle_deg"] == pytest.approx(90 - math.degrees(0.2))
+    assert result["trail"] == pytest.approx(0.0832)
+    (interval,) = result["intervals"]
+    assert list(interval) == ["V1", "V2", "lower", "upper"]
+    assert (interval["lower"], interval["upper"]) == ("weave", "capsize")
+    assert interval["V1"] == pytest.approx(4.056, abs=1e-3)
+    assert interval["V2"] == pytest.approx(4.636, abs=1e-3)
+
+
+def test_json_has_full_precision(vrange):
+    (result,) = results(vrange, "--bicycle", "meijaard2007")["results"]
+    (interval,) = result["intervals"]
+    assert interval["V1"] == pytest.approx(4.292382536341103803652, abs=5e-15)  # tests/references
+    assert interval["V2"] == pytest.approx(6.024262015388358340853, abs=5e-15)
+
+
+def test_unbounded(vrange):
+    (result,) = results(vrange, "--lam", "0.05", "--sigma", "0.15")["results"]
+    (interval,) = result["intervals"]
+    assert (interval["V2"], interval["upper"]) == (None, "unbounded")
+    _, out, _ = vrange("--lam", "0.05", "--sigma", "0.15")
+    assert out.splitlines()[-1].endswith(" (weave)  unbounded")
+
+
+def test_two_intervals_of_one_design(vrange):
+    (result,) = results(vrange, "--lam", "0.04834835", "--sigma", "0.15")["results"]
+    assert [(i["lower"], i["upper"]) for i in result["intervals"]] == [
+        ("capsize", "weave"),
+        ("weave", "unbounded"),
+    ]
+    _, out, _ = vrange("--lam", "0.04834835", "--sigma", "0.15")
+    first, second = out.splitlines()[-2:]
+    assert first.split()[1] == "87.230"
+    assert second.split()[0].startswith("24.33366290")
+
+
+def test_no_stable_speed(vrange):
+    (result,) = results(vrange, "--lam", "0.1", "--sigma", "0.08")["results"]
+    assert result["intervals"] == []
+    assert list(result["nearest"]) == ["sigma_min", "lam_min", "lam_max", "V", "growth_rate"]
+    assert result["nearest"] == nearest_stable(Bicycle.preset("dikarev1981"), 0.1, 0.08)
+
+
+def test_advice_can_be_typed_in(vrange):
+    """What is printed as a stable trail and stable tilts is stable, though it is rounded."""
+    _, out, _ = vrange("--lam", "0.1", "--sigma", "0.08")
+    assert "no stable speed" in out
+    sigma = out.split("from σ = ")[1].split()[0]
+    low, high = out.split("for λ = ")[1].split(" rad")[0].split(" ... ")
+    for lam, trail in (("0.1", sigma), (low, "0.08"), (high, "0.08")):
+        (result,) = results(vrange, "--lam", lam, "--sigma", trail)["results"]
+        assert result["intervals"], (lam, trail)
+
+
+def test_ranges(vrange):
+    found = results(vrange, "--lam", "0.05:0.3:6", "--sigma", "0.1:0.15:2")
+    pairs = [(r["lam"], r["sigma"]) for r in found["results"]]
+    assert pairs == [
+        (pytest.approx(lam), sigma) for lam in (0.05, 0.1, 0.15, 0.2, 0.25, 0.3) for sigma in (0.1, 0.15)
+    ]
+    assert pairs[-1] == (0.3, 0.15)
+    _, out, _ = vrange("--lam", "0.05:0.3:6", "--sigma", "0.1:0.15:2")
+    assert len(out.splitlines()) == 3 + len(pairs)
+    assert "least unstable" not in out
+
+
+def test_a_range_in_degrees(vrange):
+    found = results(vrange, "--bicycle", "meijaard2007", "--lam", "10deg:20deg:3")["results"]
+    assert [r["head_angle_deg"] for r in found] == pytest.approx([80, 75, 70])
+
+
+def test_units(vrange):
+    (result,) = results(vrange, "--lam", "18deg", "--sigma", "0.08")["results"]
+    assert result["lam"] == pytest.approx(math.pi / 10, rel=1e-15)
+
+
+def test_damping_and_model(vrange):
+    damped = results(vrange, "--lam", "0.2", "--sigma", "0.08", "--delta", "2", "--model", "unrefined")
+    assert (damped["delta"], damped["model"]) == (2.0, "unrefined")
+    plain = results(vrange, "--lam", "0.2", "--sigma", "0.08")
+    assert damped["results"][0]["intervals"] != plain["results"][0]["intervals"]
+    _, out, _ = vrange("--lam", "0.2", "--sigma", "0.08", "--delta", "2")
+    assert out.startswith("dikarev1981, refined model, damping 2 kg m²/s\n")
+
+
+def test_a_bicycle_of_ones_own(vrange, tmp_path):
+    text = preset_text("meijaard2007").replace("name: meijaard2007\n", "")
+    (tmp_path / "mine.yaml").write_text(text, "utf-8")
+    found = results(vrange, "--bicycle", "mine.yaml")
+    assert found["bicycle"] == "mine"
+    assert found["results"] == results(vrange, "--bicycle", "meijaard2007")["results"]
+
+
+def test_only_a_part_is_given(vrange):
+    found = results(vrange, "--bicycle", "meijaard2007", "--lam", "0.3")["results"]
+    assert found[0]["sigma"] == pytest.approx(0.08 / 1.02)
+
+
+# --- warnings and mistakes
+
+
+def test_warnings_go_to_stderr_only(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["bikestab", "vrange", "--lam", "0.2", "--sigma", "0.08", "--json"])
+    with pytest.raises(SystemExit):
+        main()
+    out, err = capsys.readouterr()
+    json.loads(out)
+    lines = err.splitlines()
+    assert len(lines) == 2
+    assert all(line.startswith("warning: dikarev1981: no ") for line in lines)
+
+
+def test_a_sound_bicycle_has_no_warnings(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["bikestab", "vrange", "--bicycle", "meijaard2007"])
+    with pytest.raises(SystemExit):
+        main()
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    ("args", "expected"),
+    [
+        ("--lam abc --sigma 0.1", "'abc' is not a number"),
+        ("--lam 18grad --sigma 0.1", "(rad, deg, °)"),
+        ("--lam 0.1 --sigma 5cm", "'5cm' is not a number"),
+        ("--lam 0.1 --sigma nan", "'nan' is not a number"),
+        ("--lam 1:2 --sigma 0.1", "'1:2' is neither a number nor START:STOP:NUM"),
+        ("--lam 0:1:1 --sigma 0.1", "'1' in '0:1:1' is not a number of values from 2"),
+        ("--lam 0:1:2.5 --sigma 0.1", "'2.5' in '0:1:2.5'"),
+        ("--lam 0:1:-3 --sigma 0.1", "'-3' in '0:1:-3'"),
+        ("--lam 0:x:3 --sigma 0.1", "'x' is not a number"),
+        ("--lam 0:1:2:3 --sigma 0.1", "is neither a number nor START:STOP:NUM"),
+        ("--lam 90deg --sigma 0.1", "does not meet the ground"),
+        ("--lam 0:2:3 --sigma 0.1", "tilted by 2 rad does not meet the ground"),
+        ("--lam 0.1 --sigma 0.1 --delta -1", "-1 is negative; allowed: 0 and above"),
+        ("--lam 0.1 --sigma 0.1 --model fine", "'refined', 'unrefined'"),
+        ("--lam 0.1 --sigma 0.1 --bicycle meijard", "did you mean 'meijaard2007'?"),
+        ("--lam 0.1 --sigma 0.1 --bicycle xyzzy", "known: dikarev1981, meijaard2007"),
+        ("--lam 0.1 --sigma 0.1 --bicycle none.yaml", "none.yaml: there is no such file"),
+        ("--lamb 0.1", "'--lam'"),
+        ("0.1", "unexpected extra argument"),
+        ("--sigma 0.1", "has no lam of its own: give --lam"),
+        ("--lam 0.1", "has no sigma of its own: give --sigma"),
+    ],
+)
+def test_a_mistake_is_told_in_three_lines(vrange, args, expected):
+    code, out, err = vrange(*args.split())
+    assert (code, out) == (2, "")
+    assert err.startswith("error: ")
+    assert expected in err
+    assert 1 <= len(err.splitlines()) <= 3
+
+
+@pytest.mark.parametrize("sigma", ["1e300", "-1e300", "1e80"])
+def test_a_trail_beyond_double_precision(vrange, sigma):
+    code, _, err = vrange("--lam", "0.1", f"--sigma={sigma}", "--json")
+    assert code == 2
+    assert err.startswith("error: ")
+
+
+# --- start-up
+
+
+@pytest.mark.parametrize(
+    "args", [["--bicycle", "meijaard2007"], ["--lam", "0.1", "--sigma", "0.08", "--json"]]
+)
+def test_no_slow_import(args):
+    """An answer without the packages that are slow to import."""
+    script = (
+        "import sys; from bikestab_cli.main import main\n"
+        f"sys.argv = ['bikestab', 'vrange', *{args!r}]\n"
+        "try: main()\n"
+        "except SystemExit as end: assert end.code == 0\n"
+        "slow = {'scipy', 'h5py', 'matplotlib', 'pydantic', 'xarray'} & set(sys.modules)\n"
+        "assert not slow, slow\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, env=os.environ | {"PYTHONUTF8": "1"}
+    )
+    assert done.returncode == 0, done.stderr

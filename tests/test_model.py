@@ -1,0 +1,158 @@
+"""The table of the characteristic polynomial against other codes and in 40 digits."""
+
+import math
+
+import numpy as np
+import pytest
+from bicycleparameters.bicycle import benchmark_par_to_canonical
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mp
+
+from bikestab.bicycle import Bicycle
+from bikestab.model import MODELS, NOISE, canonical_matrices, characteristic_table, coefficients
+from bikestab.speeds import KINDS, stable_intervals
+from tests.references import generate_speeds as reference
+from tests.strategies import lams, machines, meijaard_machines, sigmas
+
+EPS = np.finfo(float).eps
+ENTRIES = {(4, 0), (3, 1), (3, 0), (2, 2), (2, 0), (1, 3), (1, 1), (1, 0), (0, 2), (0, 0)}
+
+# Kooijman et al. (2011): two point masses on skates, without trail and gyroscopic effect, stable.
+TWO_MASS_SKATE = {
+    "w": 1, "c": 0, "lam": "5deg", "xB": 1.2, "zB": -0.4, "mB": 10, "xH": 1.02, "zH": -0.2, "mH": 1,
+    "rR": 0, "mR": 0, "IRxx": 0, "IRyy": 0, "rF": 0, "mF": 0, "IFxx": 0, "IFyy": 0,
+    "IBxx": 0, "IBzz": 0, "IBxz": 0, "IHxx": 0, "IHzz": 0, "IHxz": 0,
+}  # fmt: skip
+
+
+def canonical(machine, lam, sigma):
+    """The matrices of BicycleParameters for a machine with another tilt and trail."""
+    return benchmark_par_to_canonical({**machine, "lam": lam, "c": sigma * machine["w"]})
+
+
+@settings(deadline=None, max_examples=100, derandomize=True)
+@given(machine=meijaard_machines(), lam=lams, sigma=sigmas)
+def test_canonical_matrices_of_bicycleparameters(machine, lam, sigma):
+    """To 1e-13 of each matrix's largest entry: both codes round sums of some ten terms."""
+    found = canonical_matrices(Bicycle.from_mapping(machine), lam, sigma)
+    for got, expected in zip(found, canonical(machine, lam, sigma), strict=True):
+        assert got == pytest.approx(expected, rel=0, abs=1e-13 * np.abs(expected).max())
+
+
+@settings(deadline=None, max_examples=100, derandomize=True)
+@given(machine=meijaard_machines(), lam=lams, sigma=sigmas, delta=st.just(0.0) | st.floats(0, 10))
+def test_table_is_the_determinant(machine, lam, sigma, delta):
+    """c² det(M s² + (V C1 + δ) s + g K0 + V² K2), with the independent matrices."""
+    M, C1, K0, K2 = canonical(machine, lam, sigma)
+    matrix = np.zeros((3, 3, 2, 2))  # [power of s, power of V]
+    matrix[2, 0], matrix[1, 1], matrix[0, 0], matrix[0, 2] = M, C1, machine["g"] * K0, K2
+    matrix[1, 0, 1, 1] = delta
+    expected, size = np.zeros((5, 5)), np.zeros((5, 5))
+    norm = np.abs(matrix).max(axis=(2, 3))
+    for k, j, m, n in np.ndindex(3, 3, 3, 3):
+        a, b = matrix[k, j], matrix[m, n]
+        expected[k + m, j + n] += a[0, 0] * b[1, 1] - a[0, 1] * b[1, 0]
+        size[k + m, j + n] += norm[k, j] * norm[m, n]
+    table = characteristic_table(Bicycle.from_mapping({**machine, "delta": delta}), lam, sigma)
+    error = np.abs(table / machine["w"] ** 2 - expected[:, :4])
+    assert np.all(error <= 1e-13 * size[:, :4])  # the matrices agree to that share of their largest entry
+    assert np.all(expected[:, 4] == 0)
+
+
+@pytest.mark.parametrize("model", MODELS)
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(machine=machines, lam=lams, sigma=sigmas, delta=st.just(0.0) | st.floats(1e-3, 10))
+def test_table_in_40_digits(model, machine, lam, sigma, delta):
+    """Each entry to the rounding of its terms, and no entry the theory does not have."""
+    machine = {key: value for key, value in machine.items() if key != "delta"}
+    table = characteristic_table(Bicycle.from_mapping({**machine, "delta": delta}), lam, sigma, model=model)
+    with mp.workdps(40):
+        exact = reference.polynomial(machine, lam, sigma, delta, model)
+        for k, j in np.ndindex(5, 4):
+            entry = exact.get((k, j), reference.Sum(0))
+            assert abs(table[k, j] - entry.value) <= NOISE * entry.size
+    assert {index for index in np.ndindex(5, 4) if table[index]} <= ENTRIES
+
+
+def test_refinement_is_in_the_gravity_terms_only():
+    bicycle = Bicycle.preset("dikarev1981")
+    refined, unrefined = (coefficients(bicycle, 0.2, 0.1, model=model) for model in MODELS)
+    differ = {
+        name for name in refined._fields if getattr(refined, name).value != getattr(unrefined, name).value
+    }
+    assert differ == {"a4", "b3", "b6"}
+    l, c1 = 80 * 0.4 + 2.7 * 0.9, 0.1 * 1.04 * math.cos(0.2)  # noqa: E741  # the paper's letter
+    assert refined.a4.value - unrefined.a4.value == pytest.approx(9.8 * l * c1, rel=1e-13)
+
+
+def test_without_trail_the_models_agree():
+    bicycle = Bicycle.preset("dikarev1981")
+    refined, unrefined = (characteristic_table(bicycle, 0.2, 0.0, model=model) for model in MODELS)
+    assert np.array_equal(refined, unrefined)
+
+
+def test_unknown_model():
+    with pytest.raises(ValueError, match="'fine', not one of"):
+        characteristic_table(Bicycle.preset("dikarev1981"), 0.2, 0.1, model="fine")
+
+
+def test_exact_zero_of_the_two_mass_skate():
+    """Its p0 does not depend on V; a rounded V² term would give it a capsize speed of about 1e8 m/s."""
+    bicycle = Bicycle.from_mapping(TWO_MASS_SKATE)
+    table = characteristic_table(bicycle, bicycle.lam, bicycle.sigma)
+    assert table[0, 2] == 0
+    found = stable_intervals(table)
+    assert found.V1.tolist() == pytest.approx([2.841], abs=5e-4)
+    assert found.V2.tolist() == [np.inf]
+    assert (KINDS[found.lower[0]], KINDS[found.upper[0]]) == ("weave", "unbounded")
+
+
+@pytest.mark.parametrize("C1", [0, 1e-12, 1e-6])
+def test_tiny_but_true_coefficient_is_kept(C1):
+    """p0's V² term is c g cos λ C1° S for a skate with a little spin: 1e-13 of the terms it is left of."""
+    n = {**TWO_MASS_SKATE, "rR": 0.5, "IRyy": C1}
+    bicycle = Bicycle.from_mapping(n)
+    lam = bicycle.lam
+    S = bicycle.m2 * (bicycle.h2 * math.sin(lam) + (bicycle.l2 - 1) * math.cos(lam))
+    got = characteristic_table(bicycle, lam, 0.0)[0, 2]
+    # the terms are some 40, so their rounding of 1e-15 each is this much of what is left
+    assert got == pytest.approx(9.81 * math.cos(lam) * C1 / 0.5 * S, rel=0, abs=4 * NOISE)
+    assert (got != 0) == (C1 > 0)
+
+
+def test_zero_speed_terms_of_damping():
+    """Without damping the rows p3 and p1 have odd powers of V only."""
+    bicycle = Bicycle.preset("meijaard2007")
+    table, damped = (characteristic_table(bicycle.with_delta(d), 0.3, 0.08) for d in (0, 2.5))
+    assert table[3, 0] == table[1, 0] == 0
+    M, _, K0, _ = canonical_matrices(bicycle, 0.3, 0.08)
+    assert damped[3, 0] == pytest.approx(2.5 * M[0, 0] * bicycle.c**2, rel=1e-14)
+    assert damped[1, 0] == pytest.approx(2.5 * bicycle.g * K0[0, 0] * bicycle.c**2, rel=1e-14)
+    changed = np.argwhere(damped != table).tolist()
+    assert changed == [[1, 0], [3, 0]]
+
+
+@pytest.mark.parametrize(
+    ("lam_shape", "sigma_shape", "shape"),
+    [
+        ((), (), ()),
+        ((3,), (), (3,)),
+        ((3, 1), (4,), (3, 4)),
+        ((2, 1, 1), (3, 1), (2, 3, 1)),
+        ((0,), (1,), (0,)),
+    ],
+)
+@pytest.mark.parametrize("model", MODELS)
+def test_shapes(lam_shape, sigma_shape, shape, model):
+    """Arrays broadcast, and every cell is what it is alone."""
+    bicycle = Bicycle.preset("meijaard2007").with_delta(0.3)
+    lam = np.linspace(0, 0.5, math.prod(lam_shape)).reshape(lam_shape)
+    sigma = np.linspace(-0.1, 0.4, math.prod(sigma_shape)).reshape(sigma_shape)
+    table = characteristic_table(bicycle, lam, sigma, model=model)
+    assert table.shape == (5, 4, *shape)
+    lams_, sigmas_ = np.broadcast_arrays(lam, sigma)
+    for cell in np.ndindex(shape):
+        alone = characteristic_table(bicycle, float(lams_[cell]), float(sigmas_[cell]), model=model)
+        # numpy's vectorised sin and cos may differ from the scalar ones in the last digit
+        assert table[(..., *cell)] == pytest.approx(alone, rel=1e-13, abs=8 * EPS * np.abs(alone).max())
