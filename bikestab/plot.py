@@ -100,7 +100,7 @@ def save(figure: Figure, path: Path) -> None:
 
 
 def slice_name(fixed: str, value: float) -> str:
-    """The file name of a slice's picture."""
+    """The file name of a slice's picture; two values have two names."""
     short = f"{value:.6g}"
     return f"slice_{fixed}_{short if float(short) == value else repr(float(value))}.png"
 

@@ -55,7 +55,7 @@ def _quadratic(c: Floats) -> Floats:
     c0, c1 = c[0], c[1]
     c2 = c[2] if len(c) == 3 else np.zeros_like(c0)
     square = c1 * c1 - 4 * c0 * c2
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         q = -0.5 * (c1 + np.copysign(np.sqrt(square), c1))  # NaN without real roots
         pair = np.array([q / c2, c0 / q])
     pair[:, ~(square > 0)] = np.nan
@@ -78,7 +78,7 @@ def _bounds(c: Floats) -> tuple[Floats, Floats]:
         order = len(c) - 1 - np.argmax(c[::-1] != 0, axis=0)  # degree of each cell
         lead = np.abs(np.take_along_axis(c, order[np.newaxis], axis=0)[0])
         bound = np.zeros_like(lead)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             for j, cj in enumerate(c[:-1]):
                 ratio = np.abs(cj) / lead
                 bound = np.fmax(bound, np.where(j < order, ratio ** (1 / np.maximum(order - j, 1)), 0))
@@ -87,7 +87,8 @@ def _bounds(c: Floats) -> tuple[Floats, Floats]:
     hi = upper(c)
     low = upper(c[::-1])
     some = (hi > 0) & (low > 0)
-    return np.where(some, 0.5 / np.where(some, low, 1), 1.0), np.where(some, 2 * hi, 1.0)
+    least = np.maximum(0.5 / np.where(some, low, 1), np.finfo(float).tiny)
+    return np.where(some, least, 1.0), np.where(some, 2 * hi, 1.0)
 
 
 def _sign_changes(c: Floats, lo: Floats, hi: Floats, close: float) -> tuple[Floats, np.ndarray]:
@@ -97,7 +98,7 @@ def _sign_changes(c: Floats, lo: Floats, hi: Floats, close: float) -> tuple[Floa
     """
     n = len(c) - 1
     if n == 1:
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             root = -c[0] / c[1]
         inside = (root > lo) & (root < hi)
         return np.where(inside, root, hi)[np.newaxis], inside[np.newaxis]
@@ -127,7 +128,7 @@ def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> F
         right = f * sign_b > 0
         b = np.where(right, x, b)
         a = np.where(right, a, x)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             new = np.where(f == 0, x, x - f / slope)
         new = np.where((new >= a) & (new <= b), new, np.sqrt(a * b))
         active = (np.abs(new - x) > close * x) & (b - a > 2**-51 * b)

@@ -31,7 +31,8 @@ def coefficients_at(table: Floats, V: ArrayLike) -> tuple[Floats, Floats, Floats
     """
     V = np.asarray(V, dtype=float)
     powers = np.any(table, axis=tuple(range(2, table.ndim)))  # powers of V that each row has in any cell
-    p0, p1, p2, p3, p4 = (_polynomial(table[k], powers[k], V) for k in range(5))
+    shape = np.broadcast_shapes(table.shape[2:], V.shape)
+    p0, p1, p2, p3, p4 = (_polynomial(table[k], powers[k], V, shape) for k in range(5))
     return p0, p1, p2, p3, p4
 
 
@@ -41,16 +42,18 @@ def conditions(table: Floats, V: ArrayLike) -> Conditions:
     hurwitz3 = p2 * p3
     hurwitz3 -= p4 * p1
     hurwitz3 *= p1
-    hurwitz3 -= p0 * p3 * p3
+    last = p0 * p3
+    last *= p3
+    hurwitz3 -= last
     return Conditions(p0, p1, p2, p3, p4, hurwitz3)
 
 
 def violated(values: Conditions) -> NDArray[np.uint8]:
     """A bit mask: bit k = p_k ≤ 0 for k = 0…4, bit 5 = hurwitz3 ≤ 0; 0 means stable."""
-    mask = np.zeros(np.shape(values[0]), np.uint8)
-    for bit, value in enumerate(values):
-        mask |= (~(value > 0)).view(np.uint8) << np.uint8(bit)  # NaN does not hold either
-    return mask
+    holds = np.zeros(np.shape(values[0]), np.uint8)
+    for bit, value in enumerate(values):  # NaN does not hold
+        holds |= (value > 0).view(np.uint8) * np.uint8(1 << bit)  # numpy shifts five times slower
+    return holds ^ np.uint8((1 << len(values)) - 1)
 
 
 def stable(table: Floats, V: ArrayLike) -> NDArray[np.bool_]:
@@ -77,16 +80,18 @@ def condition_polynomials(table: Floats) -> dict[str, Floats]:
     return {"p0": p0, "p1": p1, "p2": p2, "p3": p3, "p4": p4, "hurwitz3": hurwitz3}
 
 
-def _polynomial(row: Floats, powers: NDArray[np.bool_], V: Floats) -> Floats:
+def _polynomial(row: Floats, powers: NDArray[np.bool_], V: Floats, shape: tuple[int, ...]) -> Floats:
     """Horner's scheme along the first axis of ``row``, over the powers that some cell has."""
-    used = np.flatnonzero(powers).tolist() or [0]
+    used = [j for j, some in enumerate(powers) if some] or [0]
     value = row[used[-1]]
     for high, low in pairwise(reversed(used)):
         value = value * V ** (high - low)
         value += row[low]
-    if used[0] > 0:
+    if used[0] > 0 and len(used) > 1:
+        value *= V ** used[0]
+    elif used[0] > 0:
         value = value * V ** used[0]
-    return np.broadcast_to(value, np.broadcast_shapes(row.shape[1:], V.shape))
+    return value if np.shape(value) == shape else np.broadcast_to(value, shape)
 
 
 def _product(a: Floats, b: Floats) -> Floats:

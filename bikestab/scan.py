@@ -79,11 +79,13 @@ def run_scan(config: ScanConfig, *, force: bool = False, progress: Progress = la
             hint="choose another folder",
         ) from None
     problem = ""
-    with _quiet_release():
+    with _release_failures() as failures:
         try:
             with new_volume(path, config) as writer:
                 stable_points, found = _fill(writer, config, progress)
                 writer.file.attrs["stable_points"] = stable_points
+                if failures:
+                    raise OSError("a part of the file could not be written")
         except OSError as error:
             problem = " ".join(str(error).split())[:200]
     if problem:
@@ -93,15 +95,16 @@ def run_scan(config: ScanConfig, *, force: bool = False, progress: Progress = la
 
 
 @contextmanager
-def _quiet_release() -> Iterator[None]:
-    """Let h5py keep to itself that the parts of a file which could not be written cannot be closed either.
+def _release_failures() -> Iterator[list[object]]:
+    """Collect what h5py cannot raise: a write that fails while it releases a part of the file.
 
     It tells of that in both hooks; an exception of ours goes through neither.
     """
+    failures: list[object] = []
     hooks = sys.unraisablehook, sys.excepthook
-    sys.unraisablehook, sys.excepthook = lambda _: None, lambda *_: None
+    sys.unraisablehook, sys.excepthook = failures.append, lambda *event: failures.append(event)
     try:
-        yield
+        yield failures
     finally:
         sys.unraisablehook, sys.excepthook = hooks
 
@@ -137,8 +140,10 @@ def check_size(config: ScanConfig) -> None:
 def evaluate(table: Floats, V: Floats, names: list[str]) -> dict[str, NDArray]:
     """The fields ``names`` (and always ``violated``) of a table (5, 4, cell) at the speeds V: (cell, V)."""
     out: dict[str, NDArray] = {}
-    values = conditions(table[..., np.newaxis], V)
-    out["violated"] = violated(values)
+    with np.errstate():  # restores the buffer's size, too
+        np.setbufsize(16)  # numpy else copies the broadcast columns and speeds into its buffer, each time
+        values = conditions(table[..., np.newaxis], V)
+        out["violated"] = violated(values)
     for name in names:
         if name == "stable":
             out[name] = (out["violated"] == 0).view(np.uint8)

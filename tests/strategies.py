@@ -50,7 +50,7 @@ def meijaard_machines(draw: Any) -> dict[str, float]:
 def paper_machines(draw: Any) -> dict[str, float]:
     """The paper's parameters with D1, D2 and two radii; δ is 0 for every other machine."""
     c, m1, m2 = draw(between(0.7, 1.8)), draw(between(10, 250)), draw(between(1, 30))
-    n = {"c": c, "g": 9.81, "m1": m1, "m2": m2, "delta": draw(st.just(0.0) | between(0, 5))}
+    n = {"c": c, "g": 9.81, "m1": m1, "m2": m2, "delta": draw(st.just(0.0) | between(1e-9, 5))}
     n |= {"l1": c * draw(between(0.1, 0.7)), "h1": draw(between(0.3, 1.5))}
     n |= {"l2": c * draw(between(0.7, 1.2)), "h2": draw(between(0.2, 1.0))}
     for i, m, size in (("1", m1, 0.5), ("2", m2, 0.35)):

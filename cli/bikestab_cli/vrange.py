@@ -69,7 +69,8 @@ def command(
                 check(value, ())
             except InputError as error:
                 raise click.BadParameter(f"{error.problem}; {error.hint}", param_hint=name) from None
-    results = _results(bicycle, lams, sigmas, model)
+    with_nearest = as_json or len(lams) == len(sigmas) == 1  # a table has no room for it
+    results = _results(bicycle, lams, sigmas, model, with_nearest)
     if as_json:
         print_json({"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "results": results})
     else:
@@ -90,7 +91,9 @@ def _given(name: str, values: list[float] | None, own: float | None, bicycle: Bi
     return [own] if values is None else values  # type: ignore[list-item]  # one of the two is there
 
 
-def _results(bicycle: Bicycle, lams: list[float], sigmas: list[float], model: Any) -> list[dict[str, Any]]:
+def _results(
+    bicycle: Bicycle, lams: list[float], sigmas: list[float], model: Any, with_nearest: bool
+) -> list[dict[str, Any]]:
     import numpy as np
 
     from bikestab.model import characteristic_table
@@ -115,7 +118,9 @@ def _results(bicycle: Bicycle, lams: list[float], sigmas: list[float], model: An
                 "head_angle_deg": 90 - math.degrees(lams[i]),
                 "trail": sigmas[j] * bicycle.c,
                 "intervals": intervals,
-                "nearest": None if number else _nearest(bicycle, lams[i], sigmas[j], model),
+                "nearest": _nearest(bicycle, lams[i], sigmas[j], model)
+                if with_nearest and not number
+                else None,
             }
         )
     return results
