@@ -21,14 +21,15 @@ class Nearest(TypedDict):
     """What would help; None where nothing in the searched ranges does.
 
     ``sigma_min`` is the smallest larger σ at this λ with a stable speed; ``lam_min`` … ``lam_max`` the
-    nearest λ at this σ with one; ``V`` [m/s] the speed with the smallest growth rate [s⁻¹] up to V_MAX.
+    nearest λ at this σ with one; ``V`` [m/s] the speed with the smallest growth rate [s⁻¹] up to V_MAX,
+    None where an eigenvalue is infinite (p4 = 0).
     """
 
     sigma_min: float | None
     lam_min: float | None
     lam_max: float | None
-    V: float
-    growth_rate: float
+    V: float | None
+    growth_rate: float | None
 
 
 def nearest_stable(bicycle: Bicycle, lam: float, sigma: float, *, model: Model = "refined") -> Nearest:
@@ -45,12 +46,13 @@ def nearest_stable(bicycle: Bicycle, lam: float, sigma: float, *, model: Model =
     lams = _ranges(at_lam, np.linspace(*LAM_RANGE, _SAMPLES))
     close = min(lams, key=lambda ends: min(abs(end - lam) for end in ends), default=(None, None))
     V, growth = _slowest(lambda V: growth_rate(characteristic_table(bicycle, lam, sigma, model=model), V))
+    finite = bool(np.isfinite(growth))
     return Nearest(
         sigma_min=sigmas[0][0] if sigmas else None,
         lam_min=close[0],
         lam_max=close[1],
-        V=V,
-        growth_rate=growth,
+        V=V if finite else None,
+        growth_rate=growth if finite else None,
     )
 
 

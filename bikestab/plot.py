@@ -83,11 +83,9 @@ def draw_slice(volume: Volume, fixed: Axis, value: float) -> Figure:
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Write a PNG."""
+    """Write the picture in the format of the file's ending."""
     try:
-        figure.savefig(
-            path, dpi=160, metadata={"Software" if path.suffix.lower() == ".png" else "Creator": "bikestab"}
-        )
+        figure.savefig(path, dpi=160)
     except OSError as error:
         if error.errno == 28:
             raise ScanError(f"{path}: the disk is full") from None

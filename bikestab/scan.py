@@ -81,11 +81,9 @@ def run_scan(config: ScanConfig, *, force: bool = False, progress: Progress = la
     problem = ""
     with _release_failures() as failures:
         try:
-            with new_volume(path, config) as writer:
+            with new_volume(path, config, failures) as writer:
                 stable_points, found = _fill(writer, config, progress)
                 writer.file.attrs["stable_points"] = stable_points
-                if failures:
-                    raise OSError("a part of the file could not be written")
         except OSError as error:
             problem = " ".join(str(error).split())[:200]
     if problem:

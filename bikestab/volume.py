@@ -6,7 +6,7 @@ docs/format.md describes it.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Self
@@ -39,10 +39,11 @@ _AXIS_TEXT = {
 
 
 @contextmanager
-def new_volume(path: Path, config: ScanConfig) -> Iterator[VolumeWriter]:
+def new_volume(path: Path, config: ScanConfig, failures: Sequence[object]) -> Iterator[VolumeWriter]:
     """Write a volume under a temporary name; it gets its own name when the block ends without an error.
 
-    Raises InputError where nothing can be written; an OSError while writing goes to the caller.
+    Raises InputError where nothing can be written; an OSError while writing goes to the caller, and
+    so does a write that failed where h5py cannot raise: the caller collects those in ``failures``.
     """
     partial = path.with_name(path.name + ".partial")
     try:
@@ -55,7 +56,8 @@ def new_volume(path: Path, config: ScanConfig) -> Iterator[VolumeWriter]:
             writer = VolumeWriter(file, config)
             yield writer
             writer.finish(config)
-            file.flush()
+        if failures:
+            raise OSError("a part of the file could not be written")
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
@@ -189,7 +191,7 @@ class Volume:
             raise InputError("is an HDF5 file, but no volume of bikestab", place=place)
         if not attributes.get("complete", 0):
             self.file.close()
-            raise InputError("is incomplete", place=place, hint="run the same 'bikestab scan' again")
+            raise InputError("is incomplete", place=place, hint="'bikestab scan --force' writes it again")
 
     def __enter__(self) -> Self:
         return self

@@ -73,4 +73,4 @@ def _near(found: float, wanted: float | None, within: float) -> bool:
 
 
 def _text(V: float | None) -> str:
-    return "any" if V is None else "unbounded" if math.isinf(V) else f"{V:.6g}"
+    return "any" if V is None else "unbounded" if math.isinf(V) else f"{V:.13g}"

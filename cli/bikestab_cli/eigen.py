@@ -119,7 +119,7 @@ def command(
 
 def _design(bicycle: Bicycle, lam: float | None, sigma: float | None) -> tuple[float, float]:
     """The tilt and trail asked for, or the bicycle's own."""
-    from bikestab.bicycle import check_tilt
+    from bikestab.bicycle import check_tilt, check_trail
     from bikestab.errors import InputError
 
     lam = bicycle.lam if lam is None else lam
@@ -131,10 +131,11 @@ def _design(bicycle: Bicycle, lam: float | None, sigma: float | None) -> tuple[f
             f"for example --{name} {example}",
             click.get_current_context(),
         )
-    try:
-        check_tilt(lam, ())
-    except InputError as error:
-        raise click.BadParameter(f"{error.problem}; {error.hint}", param_hint="--lam") from None
+    for option, check, value in (("--lam", check_tilt, lam), ("--sigma", check_trail, sigma)):
+        try:
+            check(value, ())
+        except InputError as error:
+            raise click.BadParameter(f"{error.problem}; {error.hint}", param_hint=option) from None
     return lam, sigma
 
 

@@ -150,19 +150,23 @@ def _advice(nearest: dict[str, Any], wheelbase: float) -> str:
     if nearest["sigma_min"] is not None:
         sigma = math.ceil(nearest["sigma_min"] * 1e6) / 1e6
         lines.append(
-            f"a stable speed appears at this λ from σ = {sigma:.6f} on (trail {sigma * wheelbase:.4f} m)"
+            f"at this λ a stable speed first appears at σ = {sigma:.6f} (trail {sigma * wheelbase:.4f} m)"
         )
+    elif nearest["lam_min"] is not None:
+        lines.append("no larger σ up to 0.5 gives a stable speed at this λ")
     if nearest["lam_min"] is not None:
         low, high = math.ceil(nearest["lam_min"] * 1e6) / 1e6, math.floor(nearest["lam_max"] * 1e6) / 1e6
         lines.append(
-            f"and at this σ for λ = {low:.6f} ... {high:.6f} rad "
-            f"(head angle {90 - math.degrees(low):.2f} ... {90 - math.degrees(high):.2f}°)"
+            f"at this σ there is one for λ = {low:.6f} ... {high:.6f} rad (head angle "
+            f"{90 - math.degrees(low):.2f} ... {90 - math.degrees(high):.2f}°), of 0 ... 0.6 rad searched"
         )
     if not lines:
         lines.append(
             "no larger σ up to 0.5 at this λ, and no λ from 0 to 0.6 rad at this σ, gives a stable speed"
         )
-    lines.append(
-        f"least unstable at {nearest['V']:.3f} m/s, where it grows at {nearest['growth_rate']:.4g} 1/s"
-    )
+    if nearest["V"] is not None:
+        lines.append(
+            f"least unstable at {nearest['V']:.3f} m/s of 0 ... 50 m/s searched, "
+            f"where it grows at {nearest['growth_rate']:.4g} 1/s"
+        )
     return "\n".join(lines)

@@ -103,7 +103,7 @@ def test_advice_can_be_typed_in(vrange):
     """What is printed as a stable trail and stable tilts is stable, though it is rounded."""
     _, out, _ = vrange("--lam", "0.1", "--sigma", "0.08")
     assert "no stable speed" in out
-    sigma = out.split("from σ = ")[1].split()[0]
+    sigma = out.split("appears at σ = ")[1].split()[0]
     low, high = out.split("for λ = ")[1].split(" rad")[0].split(" ... ")
     for lam, trail in (("0.1", sigma), (low, "0.08"), (high, "0.08")):
         (result,) = results(vrange, "--lam", lam, "--sigma", trail)["results"]
