@@ -32,8 +32,8 @@ from bikestab.model import Floats, Model
 from bikestab.units import ANGLE, PURE, SPEED, quantity, shown
 
 MOST_SPEED = 1e6  # m/s; more would overflow in hurwitz3
-AXES = ("lam", "sigma", "V")
 Axis = Literal["lam", "sigma", "V"]
+AXES: tuple[Axis, Axis, Axis] = ("lam", "sigma", "V")
 FieldName = Literal["stable", "violated", "growth_rate", "conditions"]
 
 

@@ -159,7 +159,7 @@ def columns(bicycle: Bicycle, lam: Floats, sigma: Floats, model: Model) -> tuple
 
 
 def _fill(writer: VolumeWriter, config: ScanConfig, progress: Progress) -> tuple[int, Agreement]:
-    lam, sigma, V = (config.grid.values(name) for name in AXES)  # type: ignore[arg-type]
+    lam, sigma, V = (config.grid.values(name) for name in AXES)
     _keep_heap()
     stable_points, found = 0, Agreement()
     intervals: list[list[Intervals]] = []

@@ -107,7 +107,7 @@ class VolumeWriter:
             self.file.attrs[key] = value
         for name in AXES:
             unit, text = _AXIS_TEXT[name]
-            data = self.file.create_dataset(name, data=config.grid.values(name), track_order=True)  # type: ignore[arg-type]
+            data = self.file.create_dataset(name, data=config.grid.values(name), track_order=True)
             data.make_scale(name)
             self._describe(data, unit, text, ())
 
@@ -166,7 +166,7 @@ class VolumeWriter:
 
     def finish(self, config: ScanConfig) -> None:
         """Link the fields for ParaView and mark the file complete."""
-        if all(uniform(config.grid.values(name)) for name in AXES):  # type: ignore[arg-type]
+        if all(uniform(config.grid.values(name)) for name in AXES):
             _vtk(self.file, self.names)
         self.file.attrs["complete"] = np.int32(1)
 
