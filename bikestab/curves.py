@@ -8,15 +8,12 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 from contourpy import contour_generator
-from numpy.typing import NDArray
 from scipy.optimize import elementwise
 
 from bikestab.bicycle import Bicycle
-from bikestab.model import Floats, Model, characteristic_table
-from bikestab.roots import positive_roots
-from bikestab.routh import conditions
-from bikestab.skeleton import CurveName, Skeleton, curve_functions, reduced
-from bikestab.speeds import stable_intervals
+from bikestab.events import Box, event_at
+from bikestab.model import Floats, Model
+from bikestab.skeleton import CurveName, curve_functions
 
 NAMES: dict[CurveName, str] = {name: name for name in get_args(CurveName)} | {
     "crossing": "fold",  # of two weave speeds, by the weave surface crossing itself
@@ -24,6 +21,8 @@ NAMES: dict[CurveName, str] = {name: name for name in get_args(CurveName)} | {
     "slow meet": "weave meets capsize",  # at zero frequency
 }
 _SAMPLES = 401  # per axis of the grid whose sign changes are followed
+_NEAR_END = 4.0 * 1.5 ** np.arange(-9, 1)  # grid steps: where points are put towards an end of a curve
+_HOP = "hop"  # the end of a piece whose line went on along another branch of the same function
 _SAME = 1e-6  # of the box: the uncertainty of a point where curves touch
 _SECTIONS = 64  # of a stretch of curve at a time, when an end is looked for in it
 
@@ -33,8 +32,9 @@ class Curve(NamedTuple):
 
     ``name`` is a value of NAMES. ``lam`` [rad], ``sigma`` [1] and ``V`` [m/s], shape (point,), are on
     the curve to rounding; V is where it happens: inf for a root that leaves upwards, NaN where p4 = 0.
-    ``closes`` tells whether V1 = V2 there, so that an interval ends to exist. ``ends`` says what
-    stops the piece at its first and last point: ``box``, ``closed``, or the name of another curve.
+    ``closes`` tells whether an interval closes there, V1 = V2; else two meet, or one gets another end.
+    ``ends`` says what stops the piece at its first and last point: ``box``, ``closed``, or the name of
+    another curve.
     """
 
     name: str
@@ -44,21 +44,27 @@ class Curve(NamedTuple):
     closes: bool
     ends: tuple[str, str]
 
+    def reversed(self) -> Curve:
+        """The same from its other end."""
+        lam, sigma, V = (values[::-1].copy() for values in (self.lam, self.sigma, self.V))
+        return Curve(self.name, lam, sigma, V, self.closes, (self.ends[1], self.ends[0]))
+
 
 def trace(
     bicycle: Bicycle,
     lam: tuple[float, float],
     sigma: tuple[float, float],
+    V: tuple[float, float] = (0.0, np.inf),
     *,
     model: Model = "refined",
     samples: int = _SAMPLES,
 ) -> list[Curve]:
-    """Every piece of every curve in a box λ [rad] × σ [1].
+    """Every piece of every curve in a box λ [rad] × σ [1] × V [m/s].
 
     Sign changes of the curve functions between the nodes of a grid (``samples`` per axis) are refined
     along its lines, so a closed piece smaller than a cell of this grid is not seen.
     """
-    box = _Box(bicycle, model, np.array([lam, sigma], dtype=float))
+    box = Box(bicycle, model, np.array([lam, sigma], dtype=float), V)
     nodes = np.linspace(0, 1, samples)
     functions = curve_functions(box.table(np.array(np.meshgrid(nodes, nodes, indexing="ij"))))
     found: list[Curve] = []
@@ -66,30 +72,14 @@ def trace(
         scale = np.abs(values).max()
         if scale > 0:
             lines = contour_generator(nodes, nodes, (values / scale).T).lines(0.0)
+            pieces: list[Curve] = []
             for line in _refined(box, key, [np.asarray(line).T for line in lines], nodes):
-                found.extend(_pieces(box, key, line))
+                pieces.extend(_pieces(box, key, line, float(nodes[1])))
+            found.extend(_rejoined(pieces))
     return _meeting(found, box)
 
 
-class _Box(NamedTuple):
-    """The box with coordinates (u, v) from 0 to 1; ``ends`` are its λ and σ, shape (2, 2)."""
-
-    bicycle: Bicycle
-    model: Model
-    ends: Floats
-
-    def real(self, points: Floats) -> Floats:
-        low, high = self.ends.T.reshape(2, 2, *(1,) * (points.ndim - 1))
-        return low + (high - low) * points
-
-    def table(self, points: Floats) -> Floats:
-        return characteristic_table(self.bicycle, *self.real(points), model=self.model)
-
-    def value(self, key: CurveName, points: Floats) -> Floats:
-        return curve_functions(self.table(points), [key])[key]
-
-
-def _refined(box: _Box, key: CurveName, lines: list[Floats], nodes: Floats) -> list[Floats]:
+def _refined(box: Box, key: CurveName, lines: list[Floats], nodes: Floats) -> list[Floats]:
     """Contour vertices (2, n), each on a line of the grid, moved along it onto the zero."""
 
     def value(t: Floats, *ends: Floats) -> Floats:
@@ -115,112 +105,12 @@ def _refined(box: _Box, key: CurveName, lines: list[Floats], nodes: Floats) -> l
     return [line[:, np.append(True, np.abs(np.diff(line, axis=1)).sum(axis=0) > 0)] for line in moved]
 
 
-class _Event(NamedTuple):
-    """What happens at points of a curve: where, and which other conditions must hold to matter.
-
-    ``V`` (point,); ``holds`` and ``ends`` name, for each of these conditions, whether it does (condition,
-    point) and which curve a piece meets where it ceases to; ``closes`` (point,).
-    """
-
-    V: Floats
-    holds: NDArray[np.bool_]
-    ends: tuple[str, ...]
-    closes: NDArray[np.bool_]
-
-    @property
-    def matters(self) -> NDArray[np.bool_]:
-        return np.logical_and.reduce(self.holds)
-
-
-def _event(box: _Box, key: CurveName, points: Floats) -> _Event:
-    table = box.table(points)
-    found = reduced(table)
-    if key.endswith(("infinity", "rest")):
-        return _event_at_an_end(key, found)
-    if key == "singular inertia":
-        return _event_of_inertia(box, points)
-    V = _speed(key, found)
-    exists = np.isfinite(V)
-    with np.errstate(invalid="ignore"):
-        p = conditions(table, V)
-        slopes = [
-            getattr(conditions(table, V * (1 + 1e-6)), name)
-            - getattr(conditions(table, V * (1 - 1e-6)), name)
-            for name in ("p0", "hurwitz3")
-        ]
-        needed = {
-            "fold": {"weave": exists, "meet": (p.p0 > 0) & (p.p1 > 0), "crossing": p.p3 > 0},
-            "crossing": {"weave": exists, "meet": p.p0 > 0, "fold": (p.p2 > 0) & (p.p2**2 > 4 * p.p4 * p.p0)},
-            "meet": {"capsize": exists, "slow meet": p.p1 > 0, "crossing": p.p3 > 0},
-            "slow meet": {"capsize": exists, "meet": p.p2 > 0, "crossing": p.p3 > 0},
-        }[key] | {"singular inertia": p.p4 > 0}
-        closes = np.full(len(V), True) if key in ("fold", "crossing") else slopes[0] * slopes[1] < 0
-    return _Event(V, np.array(list(needed.values())), tuple(needed), closes)
-
-
-def _event_at_an_end(key: CurveName, found: Skeleton) -> _Event:
-    """A root of p0 or hurwitz3 leaves to infinity or to rest: the others must be positive there."""
-    infinite = key.endswith("infinity")
-    at = -1 if infinite else 0
-    own = "p0" if key.startswith("capsize") else "hurwitz3"
-    names = [name for name in ("p0", "p1", "p2", "p3", "p4", "hurwitz3") if name != own]
-    values = np.array([found.polynomials[name][at] for name in names])
-    # p1 is a factor of hurwitz3's coefficient, and then zero but for rounding
-    allowed = np.array(
-        [1e-9 * np.abs(v).max() if name == "p1" else 0.0 for name, v in zip(names, values, strict=True)]
-    )
-    where = key.split(" ", 1)[1]
-    ends = {
-        "p0": f"capsize {where}",
-        "hurwitz3": f"weave {where}",
-        "p1": f"weave {where}",
-        "p4": "singular inertia",
-    }
-    V = np.full(values.shape[1], np.inf if infinite else 0.0)
-    return _Event(
-        V, values > -allowed[:, np.newaxis], tuple(ends.get(name, "crossing") for name in names), V < 0
-    )
-
-
-def _event_of_inertia(box: _Box, points: Floats) -> _Event:
-    """All motion becomes unstable where p4 changes sign."""
-    along = np.gradient(points, axis=1) if points.shape[1] > 1 else np.ones_like(points)
-    aside = np.array([-along[1], along[0]]) / np.maximum(np.hypot(*along), 1e-300) * 1e-7
-    number = [stable_intervals(box.table(points + sign * aside)).number for sign in (1, -1)]
-    V = np.full(points.shape[1], np.nan)
-    return _Event(V, (number[0] != number[1])[np.newaxis], ("weave",), np.zeros(len(V), bool))
-
-
-def _speed(key: CurveName, found: Skeleton) -> Floats:
-    """The speed [m/s] (point,) at which two of the conditions vanish together; NaN where none is."""
-    weave, p0, p1, p3, q = (found.polynomials[name] for name in ("hurwitz3", "p0", "p1", "p3", "q"))
-    j = np.arange(len(weave))[:, np.newaxis]
-    candidates, other = {
-        "fold": ((j * weave)[1:], weave),
-        "crossing": (p1, p3),
-        "meet": (p0, q),
-        "slow meet": (p0, p1),
-    }[key]
-    signs = np.where(np.arange(len(candidates)) % 2, -1.0, 1.0)[:, np.newaxis]
-    x = np.concatenate([positive_roots(candidates), -positive_roots(candidates * signs)])
-    if not len(x):
-        return np.full(p0.shape[1], np.nan)
-    j = np.arange(len(other)).reshape(-1, 1, 1)
-    with np.errstate(invalid="ignore"):
-        terms = other[:, np.newaxis] * x**j
-        residual = np.abs(terms.sum(axis=0)) / np.abs(terms).sum(axis=0)
-    common = np.argmin(np.where(np.isnan(residual), np.inf, residual), axis=0)
-    x = x[common, np.arange(x.shape[1])]
-    return np.where(x > 0, x, np.nan) ** (1 / found.power)
-
-
-def _pieces(box: _Box, key: CurveName, points: Floats) -> Iterator[Curve]:
+def _pieces(box: Box, key: CurveName, points: Floats, step: float) -> Iterator[Curve]:
     """The stretches of a line across which the stable intervals change, all in the same way."""
     if points.shape[1] < 2:
         return
     closed = bool(np.abs(points[:, 0] - points[:, -1]).sum() < 1e-12)
-    event = _event(box, key, points)
-    state = np.where(event.matters, 1 + event.closes, 0)
+    state = event_at(box, key, points).state
     if closed and len(np.unique(state)) > 1:  # start where something changes
         shift = int(np.flatnonzero(np.diff(state))[0]) + 1
         order = np.append(np.roll(np.arange(len(state) - 1), -shift), shift)
@@ -237,50 +127,111 @@ def _pieces(box: _Box, key: CurveName, points: Floats) -> Iterator[Curve]:
             elif not closed:
                 ends[side] = "box"
         if run.shape[1] > 1:
-            V = _event(box, key, run).V
+            run = _denser(box, key, run, (ends[0], ends[1]), step)
+            V = event_at(box, key, run).V
             for met, at in zip(ends, (0, -1), strict=True):
                 V[at] = np.inf if met.endswith("infinity") else 0.0 if met.endswith("rest") else V[at]
             lam, sigma = box.real(run)
             yield Curve(NAMES[key], lam, sigma, V, bool(state[start] == 2), (ends[0], ends[1]))
 
 
-def _end(box: _Box, key: CurveName, inside: Floats, outside: Floats, state: int) -> tuple[str, Floats]:
+def _end(box: Box, key: CurveName, inside: Floats, outside: Floats, state: int) -> tuple[str, Floats]:
     """Where, between two points of a curve, its event changes from ``state``; and what it meets there."""
     a, b = inside, outside
     while np.abs(b - a).max() > 1e-15:
         points = a[:, np.newaxis] + (b - a)[:, np.newaxis] * np.linspace(0, 1, _SECTIONS + 1)
-        points[:, 1:-1] = _onto(box, key, points[:, 1:-1], b - a)
-        event = _event(box, key, points)
-        same = np.where(event.matters, 1 + event.closes, 0) == state
+        points[:, 1:-1] = _onto(box, key, points[:, 1:-1], (b - a)[:, np.newaxis], float(np.hypot(*(b - a))))
+        same = event_at(box, key, points).state == state
         last = _SECTIONS - 1 if same.all() else max(int(np.argmin(same)) - 1, 0)
         if np.abs(points[:, last + 1] - points[:, last]).max() >= np.abs(b - a).max():
             break
         a, b = points[:, last], points[:, last + 1]
-    event = _event(box, key, np.column_stack([inside, outside]))
+    event = event_at(box, key, np.column_stack([inside, outside]))
     failing = np.flatnonzero(event.holds[:, 0] & ~event.holds[:, 1])
     if not len(failing):
         return "fold", a  # weave turns back on the curve, and what was closed no longer is
     met = event.ends[failing[0]]
     if met in ("weave", "capsize"):
-        V = _event(box, key, np.column_stack([a, inside])).V
+        V = event_at(box, key, np.column_stack([a, inside])).V
+        if 0.01 < V[0] / V[1] < 100:
+            return _HOP, a
         met += " at infinity" if V[0] > V[1] else " at rest"
     return NAMES.get(met, met), a
 
 
-def _onto(box: _Box, key: CurveName, points: Floats, along: Floats) -> Floats:
-    """Points (2, n) near a curve, moved onto it across the direction ``along``."""
-    length = float(np.hypot(*along))
-    across = np.array([-along[1], along[0]])[:, np.newaxis] / length
-    for _ in range(3):
+def _rejoined(pieces: list[Curve]) -> list[Curve]:
+    """Pieces put together again where their line hopped to a branch of negative speeds that crosses them."""
+    whole = [piece for piece in pieces if _HOP not in piece.ends]
+    broken = [piece for piece in pieces if _HOP in piece.ends]
+    while broken:
+        first = broken.pop(0)
+        if first.ends[1] != _HOP:
+            first = first.reversed()
+        last = np.array([first.lam[-1], first.sigma[-1]])
+        others = [
+            (other, i)
+            for i, piece in enumerate(broken)
+            for other in (piece, piece.reversed())
+            if other.ends[0] == _HOP
+        ]
+        if not others:
+            start = first.name if first.ends[0] == _HOP else first.ends[0]
+            whole.append(first._replace(ends=(start, first.name)))
+            continue
+        second, i = min(
+            others, key=lambda pair: np.hypot(pair[0].lam[0] - last[0], pair[0].sigma[0] - last[1])
+        )
+        broken.pop(i)
+        lam, sigma, V = (
+            np.append(a[:-1], b[1:])
+            for a, b in ((first.lam, second.lam), (first.sigma, second.sigma), (first.V, second.V))
+        )
+        joined = Curve(first.name, lam, sigma, V, first.closes, (first.ends[0], second.ends[1]))
+        (broken if _HOP in joined.ends else whole).append(joined)
+    return whole
+
+
+def _denser(box: Box, key: CurveName, run: Floats, ends: tuple[str, str], step: float) -> Floats:
+    """A run of points with more of them towards an end where it may touch another curve.
+
+    They are at the same values of one coordinate on every curve that ends there, whose chords then do not
+    cross each other; ``step`` is the grid's.
+    """
+    for side, end in enumerate(ends):
+        if end in ("box", "closed", _HOP):
+            continue
+        points = run[:, ::-1] if side else run
+        away = points - points[:, :1]
+        w = int(np.argmax(np.abs(away[:, 1])))
+        way = away[w] * np.sign(away[w, 1])
+        straight = int(np.argmin(np.append(np.diff(way) > 0, False)))  # as far as w goes on
+        stations = _NEAR_END * step
+        stations = stations[stations <= 0.5 * way[straight]]  # the rest belongs to the other end
+        last = int(np.argmax(way > stations[-1])) if len(stations) else 0
+        new = np.empty((2, len(stations)))
+        new[w] = points[w, 0] + stations * np.sign(away[w, 1])
+        new[1 - w] = np.interp(stations, way[: straight + 1], points[1 - w, : straight + 1])
+        along = np.zeros_like(new)
+        along[w] = stations
+        run = np.column_stack([points[:, :1], _onto(box, key, new, along, step), points[:, max(last, 1) :]])
+        run = run[:, ::-1] if side else run
+    return run
+
+
+def _onto(box: Box, key: CurveName, points: Floats, along: Floats, most: float) -> Floats:
+    """Points (2, n) near a curve, moved onto it across the directions ``along``, by no more than ``most``."""
+    length = np.hypot(*along)
+    across = np.array([-along[1], along[0]]) / length
+    for _ in range(4):
         h = 1e-3 * length
         here, above, below = (box.value(key, points + e * across) for e in (0.0, h, -h))
         with np.errstate(divide="ignore", invalid="ignore"):
             move = 2 * h * here / (above - below)
-        points = points - np.where(np.abs(move) < length, move, 0.0) * across
+        points = points - np.where(np.abs(move) < most, move, 0.0) * across
     return points
 
 
-def _meeting(curves: list[Curve], box: _Box) -> list[Curve]:
+def _meeting(curves: list[Curve], box: Box) -> list[Curve]:
     """Curves that meet get one common point there.
 
     Where they touch, rounding leaves its place along them uncertain; curves at infinity or rest cross.

@@ -105,4 +105,5 @@ def product(a: Floats, b: Floats) -> Floats:
 
 def _used(row: Floats) -> list[int]:
     """The powers that some cell has; [0] where there are none."""
-    return [j for j in range(len(row)) if np.any(row[j])] or [0]
+    some = row.reshape(len(row), -1).any(axis=1)
+    return some.nonzero()[0].tolist() or [0]
