@@ -1,11 +1,12 @@
-"""The boundary surfaces of (2.2) over (λ, σ), refined from sign changes on the grid.
+"""A check of the critical speeds: sign changes of the conditions (2.2) on the grid, refined.
 
-A second way to the critical speeds, independent of the polynomials in ``speeds``: the conditions
-themselves are evaluated at the grid's speeds, and each sign change is refined by scipy.
+A second way to them, independent of the polynomials in ``speeds``: the conditions themselves are
+evaluated at the grid's speeds, and each sign change is refined by scipy.
 """
 
 from __future__ import annotations
 
+from math import comb
 from typing import NamedTuple
 
 import numpy as np
@@ -15,9 +16,10 @@ from scipy.optimize import elementwise
 from bikestab.errors import ScanError
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS, condition_polynomials, conditions
-from bikestab.speeds import CAPSIZE, WEAVE, Intervals
 
 AGREEMENT = 1e-10  # m/s, between this way and the exact one
+_ROUNDING = 16 * np.finfo(float).eps  # of a condition, relative to the sum of its terms' sizes
+_ZERO = 128 * np.finfo(float).eps  # below it a condition is no number: ``routh`` drops what is below half
 
 
 class Brackets(NamedTuple):
@@ -28,24 +30,20 @@ class Brackets(NamedTuple):
     high: Floats
 
 
-class Surface(NamedTuple):
-    """Refined roots of one condition, shape (cell, root), NaN where there is none; which are edges."""
-
-    V: Floats
-    edge: NDArray[np.uint8]
-
-
 class Agreement(NamedTuple):
     """How far the refined roots are from the exact speeds.
 
-    ``largest`` [m/s] is over the roots that double precision fixes to AGREEMENT; of the ``loose``
-    others, close to a fold, ``largest_loose`` is the same.
+    ``largest`` [m/s] is over the roots that double precision fixes to AGREEMENT, and inf if one of them
+    is no exact speed at all; of the ``loose`` others, close to a fold, ``largest_loose`` is the same.
+    ``touching`` counts roots that are neither: the condition is zero there to rounding, and which sign
+    it has, if it changes it at all, cannot be told.
     """
 
     roots: int = 0
     largest: float = 0.0
     loose: int = 0
     largest_loose: float = 0.0
+    touching: int = 0
 
     def joined(self, other: Agreement) -> Agreement:
         return Agreement(
@@ -53,6 +51,7 @@ class Agreement(NamedTuple):
             max(self.largest, other.largest),
             self.loose + other.loose,
             max(self.largest_loose, other.largest_loose),
+            self.touching + other.touching,
         )
 
 
@@ -95,43 +94,51 @@ def refine(table: Floats, name: str, brackets: Brackets) -> Brackets:
     return Brackets(cell, found.x, found.x)
 
 
-def surface(name: str, roots: Brackets, cells: int, intervals: Intervals) -> Surface:
-    """The refined roots by cell, ascending, and which of them are an end of a stable interval."""
-    order = np.lexsort((roots.low, roots.cell))
-    cell, V = roots.cell[order], roots.low[order]
-    count = np.bincount(cell, minlength=cells)
-    rank = np.arange(len(cell)) - np.repeat(np.cumsum(count) - count, count)
-    out = np.full((cells, int(count.max(initial=0))), np.nan)
-    out[cell, rank] = V
-    kind = {"p0": CAPSIZE, "hurwitz3": WEAVE}.get(name)
-    edge = np.zeros(out.shape, bool)
-    for ends, kinds in ((intervals.V1, intervals.lower), (intervals.V2, intervals.upper)):
-        for k in range(ends.shape[1]):
-            close = np.abs(out - ends[:, k : k + 1]) <= 1e-7 * out
-            edge |= close & (kinds[:, k : k + 1] == kind)
-    return Surface(out, edge.astype(np.uint8))
-
-
 def agreement(table: Floats, name: str, roots: Brackets, exact: Floats) -> Agreement:
     """Compare refined roots with the exact speeds (root, cell) of the same condition.
 
     A root is as uncertain as the rounding of the condition's terms divided by its slope; where that
-    is more than AGREEMENT neither way can tell better.
+    is more than AGREEMENT neither way can tell better. There the two may differ by what the rounding
+    allows, or one of them may see two roots and the other none.
     """
     cell, V, _ = roots
     if not len(cell):
         return Agreement()
     padded = np.concatenate([exact[:, cell], np.full((1, len(cell)), np.inf)])
     difference = np.nanmin(np.abs(padded - V), axis=0)
-    polynomial = condition_polynomials(table[..., cell])[name]
-    slope = sum(j * c * V ** (j - 1) for j, c in enumerate(polynomial) if j)
     a = conditions(np.abs(table[..., cell]), V)
     size = getattr(a, name) if name != "hurwitz3" else a.p1 * (a.p2 * a.p3 + a.p4 * a.p1) + a.p0 * a.p3**2
-    with np.errstate(divide="ignore", invalid="ignore"):
-        loose = ~(16 * np.finfo(float).eps * size / np.abs(slope) < AGREEMENT)
+    taylor = _taylor(condition_polynomials(table[..., cell])[name], V)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        sharp = _ROUNDING * size / np.abs(taylor[1]) < AGREEMENT
+        near = difference <= _reach(taylor, _ZERO * size)
+    loose = ~sharp & near
+    touching = ~sharp & ~near & (np.abs(taylor[0]) <= _ZERO * size)
+    alone = ~(sharp | loose | touching)
     return Agreement(
         len(cell),
-        float(difference[~loose].max(initial=0)),
+        np.inf if alone.any() else float(difference[sharp].max(initial=0)),
         int(np.count_nonzero(loose)),
         float(difference[loose].max(initial=0)),
+        int(np.count_nonzero(touching)),
     )
+
+
+def _taylor(polynomial: Floats, V: Floats) -> Floats:
+    """The coefficients of the polynomials in powers of the distance from V."""
+    a = polynomial.copy()
+    for k in range(len(a) - 1):
+        for j in range(len(a) - 2, k - 1, -1):
+            a[j] += a[j + 1] * V
+    return a
+
+
+def _reach(taylor: Floats, zero: Floats) -> Floats:
+    """How far from V a root may be of a polynomial whose value there is up to ``zero``.
+
+    The root nearest to V in the complex plane is never farther: the k-th coefficient over the value is
+    a sum of binom(n, k) products of k reciprocal roots.
+    """
+    n = len(taylor) - 1
+    bounds = [(comb(n, k) * zero / np.abs(taylor[k])) ** (1 / k) for k in range(1, n + 1)]
+    return np.fmin.reduce(bounds)

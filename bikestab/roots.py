@@ -122,6 +122,7 @@ def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> F
     """
     root = np.empty_like(a)
     cell = np.arange(len(a))
+    active = np.ones(len(a), bool)
     x = np.sqrt(a * b)
     while len(cell):
         f, slope = _value_and_slope(c, x)
@@ -131,11 +132,12 @@ def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> F
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             new = np.where(f == 0, x, x - f / slope)
         new = np.where((new >= a) & (new <= b), new, np.sqrt(a * b))
+        new = np.where(active, new, x)  # a root that is found does not depend on its company
         active = (np.abs(new - x) > close * x) & (b - a > 2**-51 * b)
         root[cell] = x = new
         if np.count_nonzero(active) < 0.7 * len(cell):
             cell, a, b, x, sign_b = (v[active] for v in (cell, a, b, x, sign_b))
-            c = c[:, active]
+            c, active = c[:, active], active[active]
     return root
 
 

@@ -19,25 +19,27 @@ from bikestab.boundary import (
     AGREEMENT,
     Agreement,
     Brackets,
-    Surface,
     agreement,
     refine,
     sign_changes,
-    surface,
 )
 from bikestab.config import AXES, ScanConfig
 from bikestab.errors import InputError, ScanError
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
+from bikestab.sheets import Roots, critical_roots, sheets
 from bikestab.spectrum import growth_rate
-from bikestab.speeds import Intervals, critical_speeds, joined, stable_intervals
+from bikestab.speeds import Intervals, joined, stable_intervals
 from bikestab.units import shown
 from bikestab.volume import FIELDS, Volume, VolumeWriter, field_names, new_volume, parameters_text
 
 COLUMNS, SPEEDS = 64, 256  # a tile: values of λ and of σ, and speeds; multiples of the file's chunks
-_BYTES_PER_COLUMN = 400  # intervals and surfaces of one (λ, σ), which are kept to the end of the run
+_COLUMN_FILE = 400  # bytes in the file of the intervals and sheets of one (λ, σ)
+_COLUMN_MEMORY = (
+    800  # and in memory, where all are kept to the end of the run; with damping 700 were measured
+)
 
-R = TypeVar("R", Intervals, Surface)
+R = TypeVar("R", Intervals, Roots)
 Progress = Callable[[int], None]  # called with the number of points just finished
 
 
@@ -112,8 +114,8 @@ def check_size(config: ScanConfig) -> None:
     shape = config.grid.shape
     largest = AXES[int(np.argmax(shape))]
     each = sum(np.dtype(FIELDS[name][0]).itemsize for name in field_names(config))
-    file = each * float(np.prod(shape, dtype=float)) + _BYTES_PER_COLUMN * float(shape[0] * shape[1])
-    memory = _BYTES_PER_COLUMN * float(shape[0] * shape[1]) + 8 * float(sum(shape)) + 3e8
+    file = each * float(np.prod(shape, dtype=float)) + _COLUMN_FILE * float(shape[0] * shape[1])
+    memory = _COLUMN_MEMORY * float(shape[0] * shape[1]) + 8 * float(sum(shape)) + 3e8
     folder = Path(config.output).absolute()
     try:
         while not folder.exists():
@@ -163,10 +165,10 @@ def _fill(writer: VolumeWriter, config: ScanConfig, progress: Progress) -> tuple
     _keep_heap()
     stable_points, found = 0, Agreement()
     intervals: list[list[Intervals]] = []
-    surfaces: list[list[dict[str, Surface]]] = []
+    critical: list[list[dict[str, Roots]]] = []
     for i in _steps(len(lam), COLUMNS):
         intervals.append([])
-        surfaces.append([])
+        critical.append([])
         for j in _steps(len(sigma), COLUMNS):
             table, inside = columns(config.machine, lam[i], sigma[j], config.model)
             brackets: list[dict[str, Brackets]] = []
@@ -174,21 +176,26 @@ def _fill(writer: VolumeWriter, config: ScanConfig, progress: Progress) -> tuple
                 stable_points += int(np.count_nonzero(mask[:, -(k.stop - k.start) :] == 0))
                 first = k.stop - mask.shape[1]
                 brackets.append(sign_changes(mask, V[first : k.stop]))
-            tile, seen = _surfaces(table, inside, brackets)
-            found = found.joined(seen)
+            roots = critical_roots(table)
+            found = found.joined(_agreement(table, roots, brackets))
             intervals[-1].append(inside)
-            surfaces[-1].append(tile)
+            critical[-1].append(roots)
+    if found.largest == np.inf:
+        raise ScanError(
+            "the refined boundaries have a point that is no exact critical speed, which they should never "
+            "have; please report this with the config"
+        )
     if found.largest > AGREEMENT:
         raise ScanError(
             f"the refined boundaries differ from the exact critical speeds by {found.largest:.3g} m/s, "
             f"more than the {AGREEMENT:g} m/s that both should reach; please report this with the config"
         )
     whole = _joined(Intervals, intervals, (np.nan, np.nan, 0, 0))
-    whole_surfaces = {
-        name: _joined(Surface, [[tile[name] for tile in row] for row in surfaces], (np.nan, 0))
-        for name in CONDITIONS
-    }
-    writer.write_columns(whole, whole_surfaces, found)
+    surfaces = {}
+    for name in CONDITIONS:
+        roots_of = [[tile.pop(name) for tile in row] for row in critical]
+        surfaces[name] = sheets(name, _joined(Roots, roots_of, (np.nan, 0)), whole)
+    writer.write_columns(whole, surfaces, found)
     return stable_points, found
 
 
@@ -208,21 +215,13 @@ def _tiles(
         progress(mask.size)
 
 
-def _surfaces(
-    table: Floats, inside: Intervals, brackets: list[dict[str, Brackets]]
-) -> tuple[dict[str, Surface], Agreement]:
-    shape = table.shape[2:]
-    cells = table.reshape(5, 4, -1)
-    flat = Intervals._make(field.reshape(cells.shape[-1], -1) for field in inside)
-    exact = critical_speeds(cells)
-    found, tile = Agreement(), {}
+def _agreement(table: Floats, roots: dict[str, Roots], brackets: list[dict[str, Brackets]]) -> Agreement:
+    cells, found = table.reshape(5, 4, -1), Agreement()
     for name in CONDITIONS:
         merged = Brackets._make(map(np.concatenate, zip(*(b[name] for b in brackets), strict=True)))
-        roots = refine(cells, name, merged)
-        found = found.joined(agreement(cells, name, roots, exact[name]))
-        flat_surface = surface(name, roots, cells.shape[-1], flat)
-        tile[name] = Surface._make(field.reshape(*shape, -1) for field in flat_surface)
-    return tile, found
+        exact = roots[name].V.reshape(cells.shape[-1], -1).T
+        found = found.joined(agreement(cells, name, refine(cells, name, merged), exact))
+    return found
 
 
 def _joined(kind: type[R], blocks: list[list[R]], empty: tuple[float, ...]) -> R:

@@ -17,11 +17,12 @@ from numpy.typing import NDArray
 
 from bikestab import __version__
 from bikestab.bicycle import Bicycle
-from bikestab.boundary import Agreement, Surface
+from bikestab.boundary import Agreement
 from bikestab.config import AXES, Axis, ScanConfig
 from bikestab.errors import InputError
 from bikestab.model import Floats, Model
 from bikestab.routh import CONDITIONS
+from bikestab.sheets import Sheets
 from bikestab.speeds import KINDS, Intervals
 
 CHUNK = 32  # per axis: a slice across any axis reads one layer of chunks
@@ -122,7 +123,7 @@ class VolumeWriter:
         """Put one tile of a field into the file."""
         self.file[name][where] = values
 
-    def write_columns(self, intervals: Intervals, surfaces: dict[str, Surface], agreement: Agreement) -> None:
+    def write_columns(self, intervals: Intervals, surfaces: dict[str, Sheets], agreement: Agreement) -> None:
         """Write what depends on (λ, σ) alone: the intervals and the boundary surfaces."""
         self._counter("interval", intervals.V1.shape[-1], "number of the stable interval")
         for name, values, text in (
@@ -143,14 +144,19 @@ class VolumeWriter:
             )
             _flags(data, KINDS)
         most = max([1, *(s.V.shape[-1] for s in surfaces.values())])
-        self._counter("root", most, "number of the root")
+        self._counter("root", most, "number of the sheet of roots")
         group = self.file.create_group("boundary", track_order=True)
         for name, (V, edge) in surfaces.items():
             shape = (*V.shape[:-1], most)
             wide, flag = np.full(shape, np.nan), np.zeros(shape, np.uint8)
             wide[..., : V.shape[-1]], flag[..., : V.shape[-1]] = V, edge
             data = group.create_dataset(name, data=wide, fillvalue=np.nan, track_order=True, **_packed(wide))
-            self._describe(data, "m s-1", f"speeds at which {name} changes sign", ("lam", "sigma", "root"))
+            self._describe(
+                data,
+                "m s-1",
+                f"every speed at which {name} changes sign, sheet by sheet",
+                ("lam", "sigma", "root"),
+            )
             data = group.create_dataset(f"{name}_edge", data=flag, track_order=True, **_packed(flag))
             self._describe(
                 data, "1", f"whether {name} = 0 is an edge of stability there", ("lam", "sigma", "root")

@@ -1,4 +1,4 @@
-"""Surfaces refined from sign changes on a grid, against the exact critical speeds."""
+"""Sign changes on a grid, refined, against the exact critical speeds."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from hypothesis import given, settings
 
 from bikestab import boundary
 from bikestab.bicycle import Bicycle
-from bikestab.boundary import AGREEMENT, Brackets, agreement, refine, sign_changes, surface
+from bikestab.boundary import AGREEMENT, Brackets, agreement, refine, sign_changes
 from bikestab.errors import ScanError
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials, conditions, violated
@@ -109,58 +109,6 @@ def test_rest_is_no_crossing():
         assert np.all(refine(table, name, found[name]).low > 0)
 
 
-# --- which roots are edges
-
-
-def test_edges_are_the_ends_of_the_stable_intervals():
-    table = cells(DIKAREV, *BOX)
-    inside = stable_intervals(table)
-    exact = critical_speeds(table)
-    for name, kind in (("hurwitz3", 1), ("p0", 2)):
-        found = surface(name, refine(table, name, brackets_of(table)[name]), table.shape[-1], inside)
-        ends = np.concatenate(
-            [
-                np.where(inside.lower == kind, inside.V1, np.nan),
-                np.where(inside.upper == kind, inside.V2, np.nan),
-            ],
-            axis=1,
-        )
-        for cell in range(table.shape[-1]):
-            edges = found.V[cell][found.edge[cell] == 1]
-            expected = np.sort(ends[cell][ends[cell] < V[-1]])
-            np.testing.assert_allclose(edges, expected, atol=1e-7)
-            assert len(found.V[cell][~np.isnan(found.V[cell])]) <= np.isfinite(exact[name][:, cell]).sum()
-        assert found.edge.any()
-        assert np.any((found.edge == 0) & ~np.isnan(found.V))  # not every root is an edge
-
-
-@pytest.mark.parametrize("name", ["p1", "p2", "p3", "p4"])
-def test_the_other_conditions_are_never_an_edge(name):
-    table = cells(DIKAREV, *BOX)
-    found = surface(
-        name, refine(table, name, brackets_of(table)[name]), table.shape[-1], stable_intervals(table)
-    )
-    assert not found.edge.any()
-
-
-def test_surface_is_ascending_and_nan_behind():
-    inside = stable_intervals(cells(MEIJAARD, [0.1, 0.2, 0.3], 0.08))
-    roots = Brackets(np.array([2, 0, 2, 2]), *(np.array([3.0, 1.0, 2.0, 5.0]),) * 2)
-    found = surface("p2", roots, 3, inside)
-    np.testing.assert_array_equal(found.V, [[1, np.nan, np.nan], [np.nan] * 3, [2, 3, 5]])
-    assert surface("p2", Brackets(*(np.array([], t) for t in (int, float, float))), 3, inside).V.shape == (
-        3,
-        0,
-    )
-
-
-def test_the_benchmarks_edges():
-    table = cells(MEIJAARD, MEIJAARD.lam, MEIJAARD.sigma)
-    for name, speed in (("hurwitz3", 4.292382536341), ("p0", 6.024262015388)):
-        found = surface(name, refine(table, name, brackets_of(table)[name]), 1, stable_intervals(table))
-        np.testing.assert_allclose(found.V[found.edge == 1], [speed], atol=1e-12)
-
-
 # --- close to a fold, where two roots meet
 
 
@@ -220,6 +168,39 @@ def test_a_wrong_root_is_seen():
     assert agreement(table, "p0", wrong, none).largest == np.inf
 
 
+def test_a_double_root_on_a_speed_of_the_grid_is_no_disagreement():
+    """p0 = (V − 2)² is zero at 2, which the grid calls violated, but changes no sign: no critical speed."""
+    table = table_with_p0(4.0, -4.0, 1.0)
+    roots = refine(table, "p0", brackets_of(table, np.array([1.0, 2.0, 3.0]))["p0"])
+    exact = critical_speeds(table)["p0"]
+    np.testing.assert_array_equal(roots.low, [2, 2])
+    assert len(exact) == 0
+    assert agreement(table, "p0", roots, exact) == (2, 0.0, 0, 0.0, 2)
+
+
+def test_a_root_near_a_fold_that_is_no_zero_is_a_disagreement():
+    """p0 = (V − 2)² − ε² has no slope at 2, but there it is −ε²: more than rounding, unless ε is tiny."""
+    at_two = Brackets(np.array([0]), *(np.array([2.0]),) * 2)
+    for width, largest in ((1e-2, np.inf), (1e-4, np.inf), (1e-8, 0.0)):
+        table = table_with_p0(4 - width**2, -4.0, 1.0)
+        for exact in (critical_speeds(table)["p0"], np.empty((0, 1)), np.array([[7.0]])):
+            seen = agreement(table, "p0", at_two, exact)
+            assert seen.largest == largest
+            assert seen.largest_loose < 1e-6  # a speed far away is not the root's own
+
+
+def test_a_lost_pair_close_to_a_fold_is_a_disagreement():
+    """Two roots that rounding moves by more than 1e-10 m/s, but does not make one, must both be there."""
+    width = 1e-5
+    table = table_with_p0(4 - width**2, -4.0, 1.0)
+    roots = refine(table, "p0", brackets_of(table, np.array([1.0, 2.0, 3.0]))["p0"])
+    exact = critical_speeds(table)["p0"]
+    seen = agreement(table, "p0", roots, exact)
+    assert (seen.loose, seen.touching, seen.largest) == (2, 0, 0.0)
+    other = agreement(table, "p0", roots, exact[:1])
+    assert (other.loose, other.touching) == (1, 1)
+
+
 def test_a_root_that_cannot_be_refined_is_an_error():
     table = cells(MEIJAARD, MEIJAARD.lam, MEIJAARD.sigma)
     same_sign = Brackets(np.array([0]), np.array([1.0]), np.array([2.0]))  # p0 has no root between 1 and 2
@@ -228,8 +209,8 @@ def test_a_root_that_cannot_be_refined_is_an_error():
 
 
 def test_joined_agreements_keep_the_worst():
-    a, b = boundary.Agreement(3, 1e-14, 1, 1e-9), boundary.Agreement(4, 1e-13, 0, 0.0)
-    assert a.joined(b) == b.joined(a) == (7, 1e-13, 1, 1e-9)
+    a, b = boundary.Agreement(3, 1e-14, 1, 1e-9, 2), boundary.Agreement(4, 1e-13, 0, 0.0, 1)
+    assert a.joined(b) == b.joined(a) == (7, 1e-13, 1, 1e-9, 3)
 
 
 def test_polynomials_and_conditions_are_the_same_thing():

@@ -131,6 +131,8 @@ def _line(name: str, result: ScanResult, pictures: list[Path], seconds: float) -
     agree = f"{found.roots} boundary points agree with the exact speeds to {found.largest:.1e} m/s"
     if found.loose:
         agree += f" ({found.loose} close to a fold to {found.largest_loose:.1e})"
+    if found.touching:
+        agree += f"; at {found.touching} of them a condition only touches zero, which is no exact speed"
     return f"{name}: {result.path}{drawn}: {share}; {agree}; {seconds:.1f} s"
 
 
