@@ -9,20 +9,21 @@ import numpy as np
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
+from bikestab.skeleton import stable_ranges
 from bikestab.spectrum import growth_rate
 from bikestab.speeds import stable_intervals
 
 LAM_RANGE, SIGMA_RANGE = (0.0, 0.6), (0.0, 0.5)  # rad, 1: what is searched
 V_MAX = 50.0  # m/s, up to which the smallest growth rate is searched
-_SAMPLES = 1201
 
 
 class Nearest(TypedDict):
     """What would help; None where nothing in the searched ranges does.
 
     ``sigma_min`` is the smallest larger σ at this λ with a stable speed; ``lam_min`` … ``lam_max`` the
-    nearest λ at this σ with one; ``V`` [m/s] the speed with the smallest growth rate [s⁻¹] up to V_MAX,
-    None where an eigenvalue is infinite (p4 = 0).
+    nearest range of λ at this σ with one: points of the exact skeleton, or ends of what is searched.
+    ``V`` [m/s] is the speed with the smallest growth rate [s⁻¹] up to V_MAX, None where an
+    eigenvalue is infinite (p4 = 0).
     """
 
     sigma_min: float | None
@@ -34,51 +35,34 @@ class Nearest(TypedDict):
 
 def nearest_stable(bicycle: Bicycle, lam: float, sigma: float, *, model: Model = "refined") -> Nearest:
     """What is nearest to stability around a design (λ [rad], σ [1]) that has no stable speed."""
+    low, high = (max(sigma, end) for end in SIGMA_RANGE)
+    sigmas = stable_ranges(bicycle, low, high, lam=lam, model=model)[0] if low < high else []
+    lams = stable_ranges(bicycle, *LAM_RANGE, sigma=sigma, model=model)[0]
+    close = min(lams, key=lambda ends: min(abs(end - lam) for end in ends), default=None)
 
-    def at_sigma(values: Floats) -> np.ndarray:
-        return stable_intervals(characteristic_table(bicycle, lam, values, model=model)).number > 0
+    def at_sigma(values: Floats) -> Floats:
+        return characteristic_table(bicycle, lam, values, model=model)
 
-    def at_lam(values: Floats) -> np.ndarray:
-        return stable_intervals(characteristic_table(bicycle, values, sigma, model=model)).number > 0
+    def at_lam(values: Floats) -> Floats:
+        return characteristic_table(bicycle, values, sigma, model=model)
 
-    larger = np.linspace(max(sigma, SIGMA_RANGE[0]), max(sigma, SIGMA_RANGE[1]), _SAMPLES)
-    sigmas = _ranges(at_sigma, larger)
-    lams = _ranges(at_lam, np.linspace(*LAM_RANGE, _SAMPLES))
-    close = min(lams, key=lambda ends: min(abs(end - lam) for end in ends), default=(None, None))
     V, growth = _slowest(lambda V: growth_rate(characteristic_table(bicycle, lam, sigma, model=model), V))
     finite = bool(np.isfinite(growth))
     return Nearest(
-        sigma_min=sigmas[0][0] if sigmas else None,
-        lam_min=close[0],
-        lam_max=close[1],
+        sigma_min=_inside(at_sigma, *sigmas[0]) if sigmas else None,
+        lam_min=_inside(at_lam, *close) if close else None,
+        lam_max=_inside(at_lam, *close[::-1]) if close else None,
         V=V if finite else None,
         growth_rate=growth if finite else None,
     )
 
 
-def _ranges(holds: Callable[[Floats], np.ndarray], samples: Floats) -> list[tuple[float, float]]:
-    """The ranges of samples for which something holds, their ends (inside) refined to rounding."""
-    good = holds(samples)
-    starts = np.flatnonzero(good & ~np.concatenate([[False], good[:-1]]))
-    ends = np.flatnonzero(good & ~np.concatenate([good[1:], [False]]))
-    return [
-        (
-            _edge(holds, samples[i - 1], samples[i]) if i else float(samples[0]),
-            _edge(holds, samples[j + 1], samples[j]) if j + 1 < len(samples) else float(samples[-1]),
-        )
-        for i, j in zip(starts, ends, strict=True)
-    ]
-
-
-def _edge(holds: Callable[[Floats], np.ndarray], bad: float, good: float) -> float:
-    """The value nearest to ``bad`` for which it holds, by repeated division into 64."""
-    while abs(good - bad) > 1e-14 * max(abs(good), 1e-3):
-        cuts = np.linspace(bad, good, 65)
-        first = int(np.argmax(holds(cuts)))
-        if first == 0:
-            break
-        bad, good = cuts[first - 1], cuts[first]
-    return float(good)
+def _inside(table: Callable[[Floats], Floats], end: float, other: float) -> float:
+    """The end of a stable range moved by rounding's share, so that it has a stable speed itself."""
+    steps = np.concatenate([[0.0], 2.0 ** np.arange(-54, -34)]) * max(abs(end), 1e-3)
+    values = end + np.copysign(steps, other - end)
+    some = stable_intervals(table(values)).number > 0
+    return float(values[np.argmax(some)])
 
 
 def _slowest(growth: Callable[[Floats], Floats]) -> tuple[float, float]:

@@ -67,13 +67,13 @@ def condition_polynomials(table: Floats) -> dict[str, Floats]:
     The products behind hurwitz3 can cancel exactly; what is left of them is treated as in ``model``.
     """
     p0, p1, p2, p3, p4 = table
-    first = _product(p1, _product(p2, p3))
-    second = _product(p4, _product(p1, p1))
-    third = _product(p0, _product(p3, p3))
+    first = product(p1, product(p2, p3))
+    second = product(p4, product(p1, p1))
+    third = product(p0, product(p3, p3))
     size = (
-        _product(abs(p1), _product(abs(p2), abs(p3)))
-        + _product(abs(p4), _product(abs(p1), abs(p1)))
-        + _product(abs(p0), _product(abs(p3), abs(p3)))
+        product(abs(p1), product(abs(p2), abs(p3)))
+        + product(abs(p4), product(abs(p1), abs(p1)))
+        + product(abs(p0), product(abs(p3), abs(p3)))
     )
     hurwitz3 = first - second - third
     hurwitz3[np.abs(hurwitz3) <= 64 * np.finfo(float).eps * size] = 0.0
@@ -94,7 +94,7 @@ def _polynomial(row: Floats, powers: NDArray[np.bool_], V: Floats, shape: tuple[
     return value if np.shape(value) == shape else np.broadcast_to(value, shape)
 
 
-def _product(a: Floats, b: Floats) -> Floats:
+def product(a: Floats, b: Floats) -> Floats:
     """The product of two polynomials along the first axis."""
     out = np.zeros((len(a) + len(b) - 1, *np.broadcast_shapes(a.shape[1:], b.shape[1:])))
     for i in _used(a):
