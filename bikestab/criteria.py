@@ -130,7 +130,8 @@ def judged(
     all speeds up to the cap where none counts.
     """
     n = table.shape[-1]
-    rounds = rounds or (_FINE if n <= _CHUNK else _COARSE)  # so many are a grid, from which to start
+    # the worst of given speeds is smooth there; the best is often a kink; a grid is only a start
+    rounds = rounds or (_COARSE if wanted.judged or n > _CHUNK else _FINE)
     if wanted.judged:
         return extreme(table, *(np.full(n, end) for end in wanted.judged), worst=True, rounds=rounds)
     V, growth = np.zeros(n), np.full(n, np.inf)

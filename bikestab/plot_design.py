@@ -35,6 +35,7 @@ CURVES: dict[str, tuple[str, Any]] = {
     "weave at infinity": ("#7a0177", (0, (4, 1.2, 1, 1.2))),
     "capsize at rest": ("#c2570c", (0, (1, 1.2))),
     "weave at rest": ("#c2570c", (0, (4, 1.2, 1, 1.2))),
+    "singular inertia": ("#555555", "-"),
 }
 _OTHER = ("#555555", (0, (2, 1)))
 _SAMPLES = 301  # per axis

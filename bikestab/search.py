@@ -17,7 +17,9 @@ from bikestab.model import Floats
 
 Cost = Callable[[Floats], Floats]  # points (2, S) → values (S,), all finite
 _SEED = 1981  # the year of the paper; every search is the same each time
+ROUNDS, ROUNDS_TOGETHER = 100, 60  # most generations of one search, and of many at once
 _POPULATION = 30
+_SMALLER = 20  # of each of many problems at once
 _CLOSE = 0.3  # this share of the points around the best ones starts ten times closer to them
 
 
@@ -61,7 +63,7 @@ def minimise(cost: Cost, low: Floats, high: Floats, starts: Floats, spread: Floa
         lambda x: cost(np.clip(x, low[:, np.newaxis], high[:, np.newaxis])),
         list(zip(low - beyond, high + beyond, strict=True)),
         init=_population(starts, spread, low, high, random), vectorized=True, updating="deferred",
-        polish=False, rng=random, maxiter=100, tol=0, atol=1e-12, mutation=(0.4, 0.9), recombination=1.0,
+        polish=False, rng=random, maxiter=ROUNDS, tol=0, atol=1e-10, mutation=(0.4, 0.9), recombination=1.0,
     )  # fmt: skip
     return Found(np.clip(end.x, low, high), float(end.fun))
 
@@ -73,8 +75,6 @@ def minimise_all(
     high: Floats,
     starts: list[Floats],
     spread: Floats,
-    *,
-    rounds: int = 60,
 ) -> Floats:
     """The best points (K, 2) of K problems that measure the same of a point, as in ``minimise``.
 
@@ -82,14 +82,14 @@ def minimise_all(
     ``starts`` are K arrays (S, 2). All problems advance together, so that a round is one evaluation.
     """
     random = np.random.default_rng(_SEED)
-    x = np.array([_population(points, spread, low, high, random) for points in starts])
+    x = np.array([_population(points, spread, low, high, random, _SMALLER) for points in starts])
     K, P, _ = x.shape
 
     def evaluated(points: Floats) -> Floats:
         return costs(measure(points.reshape(-1, 2).T).reshape(-1, K, P))
 
     values, row = evaluated(x), np.arange(K)[:, np.newaxis]
-    for _ in range(rounds):
+    for _ in range(ROUNDS_TOGETHER):
         best = x[row, np.argmin(values, axis=1)[:, np.newaxis]]
         a, b = random.integers(P, size=(2, K, P))
         step, pull = random.uniform(0.3, 0.9, (2, K, P, 1))
@@ -101,10 +101,15 @@ def minimise_all(
 
 
 def _population(
-    starts: Floats, spread: Floats, low: Floats, high: Floats, random: np.random.Generator
+    starts: Floats,
+    spread: Floats,
+    low: Floats,
+    high: Floats,
+    random: np.random.Generator,
+    size: int = _POPULATION,
 ) -> Floats:
-    first = starts[: _POPULATION // 2]
-    more = first[np.arange(_POPULATION - len(first)) % len(first)]
+    first = starts[: size // 2]
+    more = first[np.arange(size - len(first)) % len(first)]
     away = random.uniform(-1, 1, more.shape) * spread
     away[: int(_CLOSE * len(more))] *= 0.1
     return np.clip(np.concatenate([first, more + away]), low, high)

@@ -122,11 +122,11 @@ def command(
     if csv_file:
         files["csv"] = written(csv_file, lambda path: _write_csv(best.pareto, path))
     if output:
+        from bikestab.curves import trace
         from bikestab.plot import save
         from bikestab.plot_design import draw_designs
 
-        # CURVES: replace () by trace(bicycle, lam, sigma, model=model), from bikestab.curves import trace
-        figure = draw_designs(wanted, best, ())
+        figure = draw_designs(wanted, best, trace(bicycle, lam, sigma, model=model))
         files["picture"] = written(output, lambda path: save(figure, path))
     if as_json:
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "lam": lam, "sigma": sigma}
