@@ -38,7 +38,7 @@ CURVES: dict[str, tuple[str, Any]] = {
     "singular inertia": ("#555555", "-"),
 }
 _OTHER = ("#555555", (0, (2, 1)))
-_SAMPLES = 301  # per axis
+_SAMPLES = 241  # per axis
 _STEPS = np.array([0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100])
 
 

@@ -207,12 +207,12 @@ def test_the_lowest_V1_lies_where_the_interval_vanishes():
 
 
 def test_limits_are_named():
-    limits = {"lam": (0.28, 0.4), "sigma": (0.05, 0.3), "trail": (0.03, 0.1)}
+    limits = {"lam": (0.31, 0.4), "sigma": (0.05, 0.3), "trail": (0.03, 0.1)}
     best = found(Wanted(MEIJAARD, **limits, judged=(5.0, 5.0)))
     assert best.widest["at"] == "limit of lam, limit of trail"
     assert best.widest["trail"] == pytest.approx(0.1)
     assert best.lowest_V1["at"] == "limit of lam, limit of sigma"
-    assert (best.lowest_V1["lam"], best.lowest_V1["sigma"]) == (0.28, 0.05)
+    assert (best.lowest_V1["lam"], best.lowest_V1["sigma"]) == (0.31, 0.05)
     assert best.own["at"] == ""
 
 

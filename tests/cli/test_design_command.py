@@ -70,7 +70,8 @@ def test_json_and_its_schema(design):
     assert found["own"]["V1"] == pytest.approx(4.292382536341, abs=1e-12)
 
 
-def test_table(design):
+def test_table(design, monkeypatch):
+    monkeypatch.setattr(search, "ROUNDS", 100)
     code, out, err = design("--bicycle", "meijaard2007", "--V", "5")
     assert (code, err) == (0, "")
     lines = out.splitlines()
@@ -95,7 +96,7 @@ def test_cut_at_the_cap(design):
     _, out, _ = design("--V", "5", "--V-max", "72km/h")
     (widest,) = (line for line in out.splitlines() if line.lstrip().startswith("widest"))
     assert "unbounded" in widest
-    assert widest.split()[-5].startswith("17.")
+    assert any(word.startswith("17.") and word.endswith("*") for word in widest.split())
     assert "* the interval goes on above 20 m/s, up to which widths count (--V-max)" in out
 
 
