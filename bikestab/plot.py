@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
@@ -20,11 +19,11 @@ from bikestab.bicycle import Bicycle
 from bikestab.config import AXES, Axis
 from bikestab.errors import InputError, ScanError, nearest
 from bikestab.model import Floats, Model, characteristic_table
+from bikestab.plot_axes import head_angle, label_axes, remarks
 from bikestab.routh import condition_polynomials, conditions, violated
 from bikestab.spectrum import growth_rate
 from bikestab.volume import Volume
 
-LABELS = {"lam": "steering-axis tilt λ [rad]", "sigma": "trail / wheelbase σ", "V": "speed V [m/s]"}
 IN_PLANE: dict[Axis, tuple[Axis, Axis]] = {
     "lam": ("sigma", "V"),
     "sigma": ("lam", "V"),
@@ -213,31 +212,13 @@ def _onto_zero(value: Any, x: Floats, y: Floats, steps: tuple[float, float]) -> 
 
 def _decorate(ax: Axes, volume: Volume, section: Section) -> None:
     c = section.bicycle.c
-    to_trail = (lambda sigma: np.asarray(sigma) * c, lambda trail: np.asarray(trail) / c)
-    ax.set_xlabel(LABELS[section.x])
-    ax.set_ylabel(LABELS[section.y])
-    if section.x == "lam":
-        top = ax.secondary_xaxis("top", functions=(_head_angle, _tilt))
-        top.set_xlabel("head angle [°]")
-    else:
-        top = ax.secondary_xaxis("top", functions=to_trail)
-        top.set_xlabel("trail [m]")
-    if section.y == "sigma":
-        right = ax.secondary_yaxis("right", functions=to_trail)
-        right.set_ylabel("trail [m]")
+    label_axes(ax, section.x, section.y, c)
     where = {
-        "lam": f"λ = {section.value:.6g} rad (head angle {_head_angle(section.value):.2f}°)",
+        "lam": f"λ = {section.value:.6g} rad (head angle {head_angle(section.value):.2f}°)",
         "sigma": f"σ = {section.value:.6g} (trail {section.value * c:.4g} m)",
         "V": f"V = {section.value:.6g} m/s",
     }[section.fixed]
-    damping = f", δ = {section.bicycle.delta:g} kg m²/s" if section.bicycle.delta else ""
-    unrefined = ", unrefined model" if section.model == "unrefined" else ""
-    ax.set_title(f"{volume.text('title')}\n{section.bicycle.name}: {where}{damping}{unrefined}", fontsize=10)
-
-
-def _head_angle(lam: Any) -> Any:
-    return 90 - np.degrees(lam)
-
-
-def _tilt(head_angle: Any) -> Any:
-    return math.pi / 2 - np.radians(head_angle)
+    ax.set_title(
+        f"{volume.text('title')}\n{section.bicycle.name}: {where}{remarks(section.bicycle, section.model)}",
+        fontsize=10,
+    )

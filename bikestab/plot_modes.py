@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.modes import Modes, follow
+from bikestab.plot_axes import HALO, head_angle, remarks
 from bikestab.speeds import KINDS, stable_intervals
 
 # dark blue, red and yellow (Tol 2021, high contrast) differ for colour-blind eyes and in greyscale
@@ -33,7 +33,6 @@ _SAMPLES = 1201
 _TICK = 0.05  # least distance of ticks, as a share of the axis
 _LETTER = 0.0125  # width of a letter as a share of the picture's, and half the height of a line of text
 _HALF_LINE = 0.022
-_HALO = [withStroke(linewidth=2.5, foreground="white")]
 
 
 class _Line(NamedTuple):
@@ -81,11 +80,9 @@ def draw_modes(
     )
     ax.set_xlabel("speed V [m/s]")
     ax.tick_params(direction="in", top=True, right=True)
-    damping = f", δ = {bicycle.delta:g} kg m²/s" if bicycle.delta else ""
-    unrefined = ", unrefined model" if model == "unrefined" else ""
     ax.set_title(
-        f"{bicycle.name}: λ = {lam:.6g} rad (head angle {90 - math.degrees(lam):.2f}°), "
-        f"σ = {sigma:.6g} (trail {sigma * bicycle.c:.4g} m){damping}{unrefined}",
+        f"{bicycle.name}: λ = {lam:.6g} rad (head angle {head_angle(lam):.2f}°), "
+        f"σ = {sigma:.6g} (trail {sigma * bicycle.c:.4g} m){remarks(bicycle, model)}",
         fontsize=10,
         pad=8 + 13 * rows,
     )
@@ -223,7 +220,7 @@ def _label_lines(ax: Axes, lines: list[_Line], edges: list[float]) -> list[str]:
         x, y = places[best]
         ax.text(
             x, y, name, transform=ax.transAxes, ha="center", va="center", fontsize=9,
-            color=_darker(STYLES[lines[i].name][0]), path_effects=_HALO,
+            color=_darker(STYLES[lines[i].name][0]), path_effects=HALO,
         )  # fmt: skip
         fixed.append(places[best] + half * np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)]))
     return [name for name in STYLES if name in {line.name for line in lines} - {n for n, _ in done}]

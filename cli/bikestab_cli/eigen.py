@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +18,7 @@ from bikestab_cli.options import (
     machine_options,
     print_json,
     table,
+    written,
 )
 
 from bikestab.units import SPEED
@@ -96,13 +95,13 @@ def command(
     intervals = _intervals(coefficients)
     files = {}
     if csv_file:
-        files["csv"] = _written(csv_file, lambda path: _write_csv(modes, path))
+        files["csv"] = written(csv_file, lambda path: _write_csv(modes, path))
     if output:
         from bikestab.plot import save
         from bikestab.plot_modes import draw_modes
 
         figure = draw_modes(bicycle, lam, sigma, min(speeds), max(speeds), model=model)
-        files["picture"] = _written(output, lambda path: save(figure, path))
+        files["picture"] = written(output, lambda path: save(figure, path))
     if as_json:
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "lam": lam, "sigma": sigma}
         head |= {"head_angle_deg": 90 - math.degrees(lam), "trail": sigma * bicycle.c}
@@ -222,25 +221,3 @@ def _write_csv(modes: Modes, path: Path) -> None:
             for branch, (name, s) in enumerate(zip(names, values.tolist(), strict=True))
         ]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
-def _written(name: str, write: Callable[[Path], object]) -> str:
-    """Let ``write`` fill a file beside the wanted one, which takes its place only when complete."""
-    from bikestab.errors import InputError, ScanError
-
-    path = Path(name)
-    part = path.with_name(f".{os.getpid()}.part.{path.name}")  # the ending tells the kind of picture
-    try:
-        write(part)
-        part.replace(path)
-    except InputError as error:
-        raise InputError(error.problem, hint=error.hint, place=name) from None
-    except ScanError as error:
-        raise ScanError(str(error).replace(str(part), name)) from None
-    except OSError as error:
-        if error.errno == 28:
-            raise ScanError(f"{name}: the disk is full") from None
-        raise InputError(f"cannot be written ({error.strerror})", place=name) from None
-    finally:
-        part.unlink(missing_ok=True)
-    return name

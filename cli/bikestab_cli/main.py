@@ -11,7 +11,7 @@ import click
 from bikestab import __version__
 from bikestab.errors import BikestabError, InputError, nearest
 
-COMMANDS = ("scan", "vrange", "eigen", "slice", "check", "info", "bicycles", "init", "schema")
+COMMANDS = ("scan", "vrange", "eigen", "design", "slice", "check", "info", "bicycles", "init", "schema")
 
 
 class _Lazy(click.Group):

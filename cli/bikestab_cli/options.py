@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -51,6 +53,21 @@ class QuantityRange(Quantity):
             )
         num = int(parts[2])
         return [start + (stop - start) * i / (num - 1) for i in range(num - 1)] + [stop]
+
+
+class QuantityEnds(Quantity):
+    """START:STOP, or one number that is both."""
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        if isinstance(value, tuple):
+            return value
+        parts = str(value).split(":")
+        if len(parts) > 2:
+            self.fail(f"{value!r} is neither a number nor START:STOP", param, ctx)
+        start, stop = (super(QuantityEnds, self).convert(part, param, ctx) for part in (parts[0], parts[-1]))
+        return start, stop
 
 
 ANGLE_VALUE, TRAIL_VALUE, SPEED_VALUE = (
@@ -117,3 +134,25 @@ def design_columns(lam: float, sigma: float, wheelbase: float) -> list[str]:
 
 
 DESIGN_HEAD = ["lam [rad]", "head angle [°]", "sigma", "trail [m]"]
+
+
+def written(name: str, write: Callable[[Path], object]) -> str:
+    """Let ``write`` fill a file beside the wanted one, which takes its place only when complete."""
+    from bikestab.errors import ScanError
+
+    path = Path(name)
+    part = path.with_name(f".{os.getpid()}.part.{path.name}")  # the ending tells the kind of picture
+    try:
+        write(part)
+        part.replace(path)
+    except InputError as error:
+        raise InputError(error.problem, hint=error.hint, place=name) from None
+    except ScanError as error:
+        raise ScanError(str(error).replace(str(part), name)) from None
+    except OSError as error:
+        if error.errno == 28:
+            raise ScanError(f"{name}: the disk is full") from None
+        raise InputError(f"cannot be written ({error.strerror})", place=name) from None
+    finally:
+        part.unlink(missing_ok=True)
+    return name

@@ -1,0 +1,46 @@
+"""What the pictures share: axes of λ, σ and V with the head angle and the trail beside them, and words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patheffects import AbstractPathEffect, withStroke
+
+from bikestab.bicycle import Bicycle
+from bikestab.model import Model
+
+LABELS = {"lam": "steering-axis tilt λ [rad]", "sigma": "trail / wheelbase σ", "V": "speed V [m/s]"}
+HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
+
+
+def label_axes(ax: Axes, x: str, y: str, wheelbase: float) -> None:
+    """Labels for two of λ, σ and V, the head angle [°] or the trail [m] on top, the trail at the right."""
+    to_trail = (lambda sigma: np.asarray(sigma) * wheelbase, lambda trail: np.asarray(trail) / wheelbase)
+    ax.set_xlabel(LABELS[x])
+    ax.set_ylabel(LABELS[y])
+    if x == "lam":
+        top = ax.secondary_xaxis("top", functions=(head_angle, _tilt))
+        top.set_xlabel("head angle [°]")
+    else:
+        top = ax.secondary_xaxis("top", functions=to_trail)
+        top.set_xlabel("trail [m]")
+    if y == "sigma":
+        right = ax.secondary_yaxis("right", functions=to_trail)
+        right.set_ylabel("trail [m]")
+
+
+def remarks(bicycle: Bicycle, model: Model) -> str:
+    """The end of a title: what is unusual about damping and model."""
+    damping = f", δ = {bicycle.delta:g} kg m²/s" if bicycle.delta else ""
+    return damping + (", unrefined model" if model == "unrefined" else "")
+
+
+def head_angle(lam: Any) -> Any:
+    """Head angle [°] of tilt λ [rad]."""
+    return 90 - np.degrees(lam)
+
+
+def _tilt(angle: Any) -> Any:
+    return np.pi / 2 - np.radians(angle)
