@@ -105,5 +105,5 @@ def product(a: Floats, b: Floats) -> Floats:
 
 def _used(row: Floats) -> list[int]:
     """The powers that some cell has; [0] where there are none."""
-    some = row.reshape(len(row), -1).any(axis=1)
-    return some.nonzero()[0].tolist() or [0]
+    some = np.logical_or.reduce(row.reshape(len(row), -1), axis=1)
+    return np.flatnonzero(some).tolist() or [0]
