@@ -17,7 +17,7 @@ from bikestab.curves import trace
 from bikestab.errors import ScanError
 from bikestab.events import Box, event_at
 from bikestab.model import Floats, Model
-from bikestab.plane import FACES, Index, Plane, triangulated
+from bikestab.plane import FACES, Index, Plane, halved, triangulated
 from bikestab.skeleton import CurveName
 from bikestab.spectrum import growth_rate
 from bikestab.speeds import CAPSIZE, NONE, WEAVE, critical_speeds, stable_intervals
@@ -49,13 +49,12 @@ class Mesh(NamedTuple):
     decay: Floats
 
     def open_edges(self, box: Box) -> Index:
-        """Edges (edge, 2) that belong to one triangle only and do not lie in a face of the box."""
+        """Edges (edge, 2) of one triangle only that are not in a face of the box, or of more than two."""
         sides = np.sort(self.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
         edges, count = np.unique(sides, axis=0, return_counts=True)
-        single = edges[count == 1]
-        a, b = self.points[single].swapaxes(0, 1)
+        a, b = self.points[edges].swapaxes(0, 1)
         on_face = [(a == face) & (b == face) for face in np.vstack([box.ends, box.V]).T]
-        return single[~np.any(on_face, axis=(0, 2))]
+        return edges[(count > 2) | ((count == 1) & ~np.any(on_face, axis=(0, 2)))]
 
 
 def region_mesh(
@@ -66,18 +65,20 @@ def region_mesh(
     *,
     model: Model = "refined",
     cells: int = 100,
+    whole: bool = True,
 ) -> Mesh:
     """The boundary of the stable region within a box λ [rad] × σ [1] × V [m/s].
 
     ``cells`` is the number of triangles along λ and along σ; what is smaller than a cell and bounded by
-    no traced curve is not seen. Raises ScanError if a sheet cannot be followed to its rim.
+    no traced curve is not seen. Raises ScanError if the surface has holes; without ``whole`` small ones
+    are left, and the mesh is there sooner.
     """
     box = Box(bicycle, model, np.array([lam, sigma], dtype=float), V)
     for finer in _TRACED:
         curves = trace(bicycle, lam, sigma, V, model=model, samples=finer * cells + 1)
-        mesh = _lifted(box, triangulated(box, curves, cells))
+        mesh = _lifted(box, _parted(box, triangulated(box, curves, cells)))
         holes = mesh.open_edges(box)
-        if not len(holes):
+        if not whole or not len(holes):
             return mesh
     at = mesh.points[holes[0, 0]]
     raise ScanError(
@@ -115,10 +116,24 @@ def _ends(box: Box, points: Floats) -> _Ends:
     return _Ends((V1, V2), (lower, upper), code * 10 + number)
 
 
+def _parted(box: Box, plane: Plane) -> Plane:
+    """The plane with a point between two on curves, where V1 and V2 would else touch across a region."""
+    code = _ends(box, _inner(plane)).code
+
+    def chosen(middle: Floats, beside: Index) -> NDArray[np.bool_]:
+        here = code[beside]
+        return (here[:, 0] % 10 > 0) & (here == _ends(box, middle).code[:, np.newaxis]).all(axis=1)
+
+    return halved(plane, chosen)
+
+
 def _lifted(box: Box, plane: Plane) -> Mesh:
     inner = _inner(plane)
     ends = _ends(box, inner)
     stable = ends.code % 10 > 0
+    if not stable.any():
+        none = np.empty(0)
+        return Mesh(none.reshape(0, 3), np.empty((0, 3), np.intp), none.astype(np.uint8), none > 0, none)
     triangles, ends = plane.triangles[stable], _chosen(ends, stable)
     corner_ends = _corners(box, plane, triangles, inner[:, stable], ends.code)
     speeds = _speeds(box, plane)
@@ -248,4 +263,5 @@ def _replace_nearest(values: Floats, on: Index, V: Floats) -> None:
 def _lowest(box: Box, points: Floats, V1: Floats, V2: Floats) -> Floats:
     """The lowest growth rate [s⁻¹] (point,) of evenly spaced speeds in an interval."""
     V = V1 + (V2 - V1) * np.linspace(0, 1, _SAMPLES)[:, np.newaxis]
-    return growth_rate(box.table(points)[:, :, np.newaxis], V).min(axis=0)
+    rate = growth_rate(box.table(points)[:, :, np.newaxis], V).min(axis=0)
+    return np.minimum(rate, 0.0)  # which it is at either end

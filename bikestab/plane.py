@@ -108,8 +108,7 @@ def _cut(plane: Plane, name: str, value: Function, relevant: Relevant | None, tr
     on = np.zeros(len(f), bool)
     on[traced] = _close(value, points[:, traced])
     sign = np.where(on, 0.0, np.sign(f))
-    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1)
-    edges, which = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+    edges, which = _edges(triangles)
     crossed = np.flatnonzero(sign[edges[:, 0]] * sign[edges[:, 1]] < 0)
     a, b = points[:, edges[crossed, 0]], points[:, edges[crossed, 1]]
 
@@ -181,9 +180,43 @@ def _split(triangles: Index, cut: Index) -> Index:
         A, B, C = triangles[two][:, [i, j, k]].T
         p, q = cut[two, j], cut[two, k]
         parts += [np.array([C, q, p]).T, np.array([q, A, p]).T, np.array([A, B, p]).T]
-    if np.any(count == 3):
-        raise AssertionError("a function changes its sign three times around a triangle")
+    A, B, C = triangles[count == 3].T
+    p, q, r = cut[count == 3].T
+    parts += [np.array(corners).T for corners in ((A, p, r), (p, B, q), (r, q, C), (p, q, r))]
     return np.concatenate(parts)
+
+
+def halved(plane: Plane, chosen: Callable[[Floats, Index], NDArray[np.bool_]]) -> Plane:
+    """The plane with new points in the middle of sides between two points on curves.
+
+    ``chosen`` tells which, from the middles (2, side) and their triangles (side, 2); sides on the rim of
+    the box and those between neighbours on one curve stay whole where it says so.
+    """
+    edges, which = _edges(plane.triangles)
+    onto = np.logical_or.reduce(list(plane.on.values()))
+    order = np.argsort(which, kind="stable")
+    count = np.bincount(which, minlength=len(edges))
+    first = np.cumsum(count) - count
+    inside = np.flatnonzero((count == 2) & onto[edges].all(axis=1))
+    beside = order[first[inside, np.newaxis] + [0, 1]] // 3
+    middle = plane.points[:, edges[inside]].mean(axis=2)
+    some = chosen(middle, beside)
+    number = np.full(len(edges), -1)
+    number[inside[some]] = plane.points.shape[1] + np.arange(np.count_nonzero(some))
+    none = np.zeros(np.count_nonzero(some), bool)
+    return Plane(
+        np.concatenate([plane.points, middle[:, some]], axis=1),
+        _split(plane.triangles, number[which.reshape(-1, 3)]),
+        {name: np.append(on, none) for name, on in plane.on.items()},
+        plane.cuts,
+    )
+
+
+def _edges(triangles: Index) -> tuple[Index, Index]:
+    """The sides (edge, 2) of triangles, and which of them are the sides 01, 12, 20 of each, flat."""
+    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1)
+    edges, which = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+    return edges, which.ravel()
 
 
 def _close(value: Function, points: Floats) -> NDArray[np.bool_]:

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 def command(configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, as_json: bool) -> None:
     """Evaluate grids; write volumes and pictures.
 
-    Each YAML config gives a volume.h5 and PNG slices in its output folder.
+    Each YAML config gives in its output folder a volume.h5, the stable region in three dimensions as
+    region.png, and PNG slices.
 
     'bikestab init' writes a commented config to start from. All configs are read before the first is
     computed. A volume that is there already, made from the same config, is kept and only its
@@ -106,13 +107,13 @@ def _progress(name: str, config: ScanConfig) -> Iterator[Progress]:
 
 
 def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:
-    if not config.slices:
-        return []
     from bikestab.plot import draw_slice, save, slice_name
+    from bikestab.plot_region import draw_region
     from bikestab.volume import Volume
 
-    pictures = []
+    pictures = [result.path.parent / "region.png"]
     with Volume(result.path) as volume:
+        save(draw_region(volume), pictures[0])
         for plane in config.slices:
             fixed, value = plane.fixed
             pictures.append(result.path.parent / slice_name(fixed, value))
