@@ -120,7 +120,7 @@ def command(
     best = best_designs(wanted)
     files = {}
     if csv_file:
-        files["csv"] = written(csv_file, lambda path: _write_csv(best.pareto, path))
+        files["front"] = written(csv_file, lambda path: _write_csv(best.pareto, path))
     if output:
         from bikestab.curves import trace
         from bikestab.plot import save
@@ -132,10 +132,10 @@ def command(
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "lam": lam, "sigma": sigma}
         head |= {"trail": trail, "V_max": V_max, "judged": judged, "stable": stable}
         print_json({**head, **best._asdict(), **files})
-    elif files:
-        click.echo("\n".join(files.values()))
     else:
         click.echo(_told(wanted, best))
+        for kind, name in files.items():
+            click.echo(f"{kind}: {name}")
 
 
 def _check_picture(output: str, lam: Ends, sigma: Ends) -> None:

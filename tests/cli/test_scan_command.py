@@ -44,19 +44,20 @@ def test_one_line_for_each_config(scan):
     code, out, err = scan("a.yaml", "b.yaml")
     assert (code, err) == (0, "")
     first, second = out.splitlines()
-    assert first.startswith("a.yaml: out/a/volume.h5: ")
-    assert second.startswith("b.yaml: out/b/volume.h5: ")
+    assert first.startswith("a.yaml: out/a/volume.h5, 1 picture: ")
+    assert second.startswith("b.yaml: out/b/volume.h5, 1 picture: ")
     assert "of 462 points stable" in first
     assert "boundary points agree with the exact speeds to " in first
-    assert outputs() == ["out/a/volume.h5", "out/b/volume.h5"]
+    assert outputs() == ["out/a/region.png", "out/a/volume.h5", "out/b/region.png", "out/b/volume.h5"]
 
 
 def test_pictures(scan):
     Path("a.yaml").write_text(CONFIG + "slices: [{lam: 0.2}, {sigma: 0.08}, {V: 18km/h}]\n")
     code, out, _ = scan("a.yaml")
     assert code == 0
-    assert "out/a/volume.h5, 3 pictures: " in out
+    assert "out/a/volume.h5, 4 pictures: " in out
     assert outputs() == [
+        "out/a/region.png",
         "out/a/slice_V_5.png",
         "out/a/slice_lam_0.2.png",
         "out/a/slice_sigma_0.08.png",
@@ -67,7 +68,7 @@ def test_pictures(scan):
 def test_two_close_planes_are_two_pictures(scan):
     Path("a.yaml").write_text(CONFIG + "slices: [{lam: 0.20000001}, {lam: 0.20000002}]\n")
     scan("a.yaml")
-    assert len([name for name in outputs() if name.endswith(".png")]) == 2
+    assert len([name for name in outputs() if "slice_" in name]) == 2
 
 
 def test_json(scan):
@@ -80,8 +81,8 @@ def test_json(scan):
         "largest_boundary_difference", "warnings",
     ]  # fmt: skip
     assert (first["config"], first["volume"], first["points"]) == ("a.yaml", "out/a/volume.h5", 462)
-    assert first["pictures"] == ["out/a/slice_lam_0.2.png"]
-    assert second["pictures"] == []
+    assert first["pictures"] == ["out/a/region.png", "out/a/slice_lam_0.2.png"]
+    assert second["pictures"] == ["out/b/region.png"]
     assert first["computed"] is True
     assert 0 < first["largest_boundary_difference"] < 1e-10
     assert len(first["warnings"]) == 2
