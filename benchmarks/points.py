@@ -35,8 +35,9 @@ from bicycleparameters.parameter_sets import Meijaard2007ParameterSet
 from numpy.typing import NDArray
 
 from bikestab import yamltext
-from bikestab.bicycle import MEIJAARD, Bicycle, preset_text
+from bikestab.bicycle import Bicycle, preset_text
 from bikestab.model import canonical_matrices, characteristic_table
+from bikestab.notation import MEIJAARD
 from bikestab.routh import stable
 from bikestab.scan import COLUMNS, SPEEDS, _keep_heap, evaluate
 from bikestab.spectrum import growth_rate

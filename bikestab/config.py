@@ -26,9 +26,11 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from bikestab import yamltext
-from bikestab.bicycle import MEIJAARD, PAPER, Bicycle, check_tilt, check_trail, preset_names
+from bikestab.bicycle import PAPER, Bicycle, preset_names
 from bikestab.errors import InputError, dotted, nearest
+from bikestab.limits import check_tilt, check_trail
 from bikestab.model import Floats, Model
+from bikestab.notation import MEIJAARD
 from bikestab.units import ANGLE, PURE, SPEED, quantity, shown
 
 MOST_SPEED = 1e6  # m/s; more would overflow in hurwitz3

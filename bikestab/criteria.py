@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.bicycle import Bicycle, check_tilt, check_trail
+from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
+from bikestab.limits import check_tilt, check_trail
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.spectrum import growth_rate
 from bikestab.speeds import Intervals, stable_intervals

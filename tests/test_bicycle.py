@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from bikestab.bicycle import Bicycle, check_tilt, parameters, preset_names, preset_text
+from bikestab.bicycle import Bicycle, parameters, preset_names, preset_text
 from bikestab.errors import InputError
+from bikestab.limits import check_tilt
 from bikestab.model import characteristic_table
 from tests.strategies import machines, meijaard_machines
 

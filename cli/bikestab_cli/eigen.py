@@ -118,8 +118,8 @@ def command(
 
 def _design(bicycle: Bicycle, lam: float | None, sigma: float | None) -> tuple[float, float]:
     """The tilt and trail asked for, or the bicycle's own."""
-    from bikestab.bicycle import check_tilt, check_trail
     from bikestab.errors import InputError
+    from bikestab.limits import check_tilt, check_trail
 
     lam = bicycle.lam if lam is None else lam
     sigma = bicycle.sigma if sigma is None else sigma

@@ -57,8 +57,8 @@ def command(
       bikestab vrange --bicycle meijaard2007 --lam 20deg --json
       bikestab vrange --lam 0.1 --sigma 0.08 --delta 1
     """
-    from bikestab.bicycle import check_tilt, check_trail
     from bikestab.errors import InputError
+    from bikestab.limits import check_tilt, check_trail
 
     bicycle = load_bicycle(bicycle_name, delta)
     lams = _given("lam", lam, bicycle.lam, bicycle)

@@ -263,7 +263,7 @@ def test_what_init_wrote_scans(bikestab):
     coarse = [f"--set=grid.{axis}.num=5" for axis in ("lam", "sigma", "V")]
     code, out, _ = bikestab("scan", "mine.yaml", "--set=slices=[]", *coarse)
     assert code == 0
-    assert out.startswith("mine.yaml: out/mine/volume.h5: ")
+    assert out.startswith("mine.yaml: out/mine/volume.h5, 1 picture: ")
 
 
 @pytest.mark.parametrize(

@@ -147,6 +147,8 @@ def roots(coefficients: list[Any]) -> list[Any]:
     n = len(c) - 1
     if n < 1:
         return [mpf(0)] * zeros
+    if n == 1:  # for which older mpmath returns the matrix itself
+        return [mpf(0)] * zeros + [-c[0] / c[1]]
     scale = max(abs(c[k] / c[n]) ** (mpf(1) / (n - k)) for k in range(n))
     matrix = mp.matrix(n, n)
     for k in range(n):

@@ -1,0 +1,54 @@
+"""What values of the parameters the equations can use."""
+
+from __future__ import annotations
+
+import math
+
+from bikestab.errors import InputError
+
+MOST_TRAIL = 100.0  # of σ
+MOST = 1e9  # of every parameter, in its SI unit; more would overflow in products of conditions
+
+
+def check_tilt(lam: float, key: tuple[str | int, ...]) -> None:
+    """Raise InputError unless the steering axis meets the ground: |λ| < π/2."""
+    if not abs(lam) < math.pi / 2:
+        raise InputError(
+            f"a steering axis tilted by {lam:g} rad does not meet the ground",
+            key=key,
+            hint="allowed: between -90deg and 90deg, both excluded; degrees are written 18deg",
+        )
+
+
+def check_trail(sigma: float, key: tuple[str | int, ...]) -> None:
+    """Raise InputError for a trail beyond all sense, which would overflow in the conditions."""
+    if not abs(sigma) <= MOST_TRAIL:
+        raise InputError(
+            f"a trail of {sigma:g} wheelbases is out of range",
+            key=key,
+            hint=f"allowed: -{MOST_TRAIL:g} ... {MOST_TRAIL:g}; sigma = trail / wheelbase",
+        )
+
+
+def exceeds(a: float, b: float) -> bool:
+    """Whether a > b by more than rounding."""
+    return a > b * (1 + 1e-9)  # published inertias of thin discs sit exactly on the limit
+
+
+def check_value(key: str, value: float, check: str, meaning: str) -> None:
+    """Raise InputError unless a parameter is of the sign wanted and within MOST."""
+    if abs(value) > MOST:
+        raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: up to {MOST:g}")
+    if (check == "positive" and not value > 0) or (check == "non-negative" and not value >= 0):
+        limit = "> 0" if check == "positive" else ">= 0"
+        raise InputError(f"{value:g} is not {check} ({meaning})", key=(key,), hint=f"allowed: {key} {limit}")
+
+
+def check_product(key: str, D: float, a: str, A: float, b: str, B: float) -> None:
+    """Raise InputError for a product of inertia that no body with A and B has."""
+    if exceeds(abs(D), math.sqrt(A * B)):
+        raise InputError(
+            f"|{D:g}| is more than √({a} {b}) = {math.sqrt(A * B):g}",
+            key=(key,),
+            hint=f"allowed: |{key}| <= {math.sqrt(A * B):.6g} kg m²",
+        )
