@@ -11,7 +11,19 @@ import click
 from bikestab import __version__
 from bikestab.errors import BikestabError, InputError, nearest
 
-COMMANDS = ("scan", "vrange", "eigen", "design", "slice", "check", "info", "bicycles", "init", "schema")
+COMMANDS = (
+    "scan",
+    "vrange",
+    "eigen",
+    "design",
+    "slice",
+    "export",
+    "check",
+    "info",
+    "bicycles",
+    "init",
+    "schema",
+)
 
 
 class _Lazy(click.Group):

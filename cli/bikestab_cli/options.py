@@ -146,7 +146,8 @@ def written(name: str, write: Callable[[Path], object]) -> str:
         write(part)
         part.replace(path)
     except InputError as error:
-        raise InputError(error.problem, hint=error.hint, place=name) from None
+        place = error.place if error.place not in ("", str(part)) else name  # it may be what is read
+        raise InputError(error.problem, hint=error.hint, place=place) from None
     except ScanError as error:
         raise ScanError(str(error).replace(str(part), name)) from None
     except OSError as error:
