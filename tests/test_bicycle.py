@@ -295,7 +295,7 @@ def test_possible_machines_pass(machine):
 
 
 def test_presets():
-    assert preset_names() == ["dikarev1981", "meijaard2007"]
+    assert preset_names() == ["dikarev1981", "kooijman2011", "meijaard2007", "sharp1971"]
     printed = make(name="dikarev1981")
     assert dataclasses.replace(Bicycle.preset("dikarev1981"), source="") == printed
     benchmark = make(BENCHMARK, name="meijaard2007")
@@ -308,7 +308,7 @@ def test_presets():
 def test_unknown_preset():
     with pytest.raises(InputError, match="there is no bicycle 'meijard2007'\ndid you mean 'meijaard2007'"):
         Bicycle.preset("meijard2007")
-    with pytest.raises(InputError, match="known: dikarev1981, meijaard2007"):
+    with pytest.raises(InputError, match="known: dikarev1981, kooijman2011, meijaard2007"):
         Bicycle.load("penny-farthing")
 
 

@@ -156,7 +156,7 @@ def test_random_machines(machine, lam, sigma, some):
         assert abs(growth - expected) <= max(1e-9, tolerance)
 
 
-@pytest.mark.parametrize("preset", ["dikarev1981", "meijaard2007"])
+@pytest.mark.parametrize("preset", ["dikarev1981", "meijaard2007", "sharp1971"])
 def test_presets_to_1e_9_per_second(preset):
     table = characteristic_table(Bicycle.preset(preset), 0.3, 0.1)[..., np.newaxis]
     V = np.linspace(0, 50, 41)

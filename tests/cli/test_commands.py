@@ -210,20 +210,20 @@ def test_bicycles(bikestab):
     code, out, err = bikestab("bicycles")
     assert (code, err) == (0, "")
     names = [line for line in out.splitlines() if not line.startswith(" ")]
-    assert names == ["dikarev1981", "meijaard2007"]
+    assert names == ["dikarev1981", "kooijman2011", "meijaard2007", "sharp1971"]
     assert "warning: no rigid front part has A2 + B2 < C2" in out
     assert max(map(len, out.splitlines())) <= 96
 
 
 def test_bicycles_json(bikestab):
     found = json.loads(bikestab("bicycles", "--json")[1])
-    assert [b["name"] for b in found] == ["dikarev1981", "meijaard2007"]
-    assert found[1]["lam"] == pytest.approx(math.pi / 10)
+    assert [b["name"] for b in found] == ["dikarev1981", "kooijman2011", "meijaard2007", "sharp1971"]
+    assert found[2]["lam"] == pytest.approx(math.pi / 10)
     (one,) = json.loads(bikestab("bicycles", "meijaard2007", "--json")[1])
-    assert one == found[1]
+    assert one == found[2]
 
 
-@pytest.mark.parametrize("name", ["dikarev1981", "meijaard2007"])
+@pytest.mark.parametrize("name", ["dikarev1981", "kooijman2011", "meijaard2007", "sharp1971"])
 def test_a_printed_bicycle_is_a_bicycle(bikestab, name):
     code, out, _ = bikestab("bicycles", name)
     assert (code, out) == (0, preset_text(name))

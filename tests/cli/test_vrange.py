@@ -193,7 +193,7 @@ def test_a_sound_bicycle_has_no_warnings(monkeypatch, capsys):
         ("--lam 0.1 --sigma 0.1 --delta -1", "-1 is negative; allowed: 0 and above"),
         ("--lam 0.1 --sigma 0.1 --model fine", "'refined', 'unrefined'"),
         ("--lam 0.1 --sigma 0.1 --bicycle meijard", "did you mean 'meijaard2007'?"),
-        ("--lam 0.1 --sigma 0.1 --bicycle xyzzy", "known: dikarev1981, meijaard2007"),
+        ("--lam 0.1 --sigma 0.1 --bicycle xyzzy", "known: dikarev1981, kooijman2011, meijaard2007"),
         ("--lam 0.1 --sigma 0.1 --bicycle none.yaml", "none.yaml: there is no such file"),
         ("--lamb 0.1", "'--lam'"),
         ("0.1", "unexpected extra argument"),

@@ -30,6 +30,18 @@ BENCHMARK = {
     "rF": 0.35, "mF": 3, "IFxx": 0.1405, "IFyy": 0.28,
 }  # fmt: skip
 
+SKATES = {
+    "w": 1, "c": 0, "lam": math.pi / 36, "g": 9.81, "xB": 1.2, "zB": -0.4, "mB": 10, "xH": 1.02, "zH": -0.2,
+    "mH": 1, "rR": 0, "mR": 0, "IRxx": 0, "IRyy": 0, "rF": 0, "mF": 0, "IFxx": 0, "IFyy": 0,
+    "IBxx": 0, "IBzz": 0, "IBxz": 0, "IHxx": 0, "IHzz": 0, "IHxz": 0,
+}  # fmt: skip
+MOTORCYCLE = {
+    "c": 1.414332, "g": 9.81, "m1": 217.4492, "l1": 0.4797552, "h1": 0.615696, "A1": 31.18381, "B1": 21.06941,
+    "D1": -1.735447, "C1": 1.050759, "R1": 0.3048, "m2": 30.6472, "l2": 1.359504, "h2": 0.4164403,
+    "A2": 1.070599, "B2": 0.605192, "D2": 0.3202889, "C2": 0.7185835, "R2": 0.3048,
+}  # fmt: skip
+RAKE, TRAIL, DAMPER = 27 * math.pi / 180, 0.1299923 / 1.414332, 6.77909  # Sharp's own
+
 
 class Sum:
     """A number with the summed absolute values of the terms that formed it, for its conditioning."""
@@ -147,7 +159,7 @@ def roots(coefficients: list[Any]) -> list[Any]:
     n = len(c) - 1
     if n < 1:
         return [mpf(0)] * zeros
-    if n == 1:  # for which older mpmath returns the matrix itself
+    if n == 1:  # some versions of mpmath return something else from a matrix of one entry
         return [mpf(0)] * zeros + [-c[0] / c[1]]
     scale = max(abs(c[k] / c[n]) ** (mpf(1) / (n - k)) for k in range(n))
     matrix = mp.matrix(n, n)
@@ -212,7 +224,8 @@ def result(machine: dict[str, float], lam: float, sigma: float, delta: float, mo
 
 
 def _rounded(edge: Edge) -> tuple[str, str, float]:
-    return mp.nstr(edge.V, 22), edge.kind, float(mp.nstr(edge.condition, 2))
+    speed = mp.nstr(edge.V, 22).lstrip("+")  # versions of mpmath differ in the sign of infinity
+    return speed, edge.kind, float(mp.nstr(edge.condition, 2))
 
 
 def random_machine(rng: random.Random) -> dict[str, float]:
@@ -268,6 +281,8 @@ def cases() -> list[dict[str, Any]]:
         found += [
             (f"random {number}", machine, lam, sigma, *more) for more in ((0, "refined"), (delta, model))
         ]
+    found += [("sharp1971", MOTORCYCLE, RAKE, TRAIL, delta, "refined") for delta in (DAMPER, 0)]
+    found += [("kooijman2011", SKATES, SKATES["lam"], 0, 0, "refined")]
     keys = ("name", "machine", "lam", "sigma", "delta", "model")
     return [dict(zip(keys, values, strict=True)) for values in found]
 
