@@ -57,6 +57,8 @@ def save_mesh(mesh: Mesh, path: Path, scale: Sequence[float] | Floats, about: Ma
     ending = file_format(path, MESHES)
     points = mesh.points * np.asarray(scale, dtype=float)
     about = {"axes": f"{scale_text(scale)} (lam in rad, V in m/s)", **about}
+    # one line of ASCII, as PLY needs and VTK's Python side
+    about = {k: " ".join(text.encode("ascii", "replace").decode().split()) for k, text in about.items()}
     if ending == ".stl":
         content = _stl(mesh, points, about)
     elif ending == ".ply":
@@ -108,9 +110,9 @@ def _ply(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:
     for data, index in ((vertex, kind), (face, mesh.kind)):
         for i, (name, _) in enumerate(rgb):
             data[name] = colour[index, i]
-    comments = "".join(f"comment {name}: {' '.join(text.split())}\n" for name, text in about.items())
+    comments = "".join(f"comment {name}: {text}\n" for name, text in about.items())
     header = _HEADER.format(comments=comments, vertices=len(vertex), faces=len(face))
-    return header.encode("ascii", "replace") + vertex.tobytes() + face.tobytes()
+    return header.encode() + vertex.tobytes() + face.tobytes()
 
 
 def _stl(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:
@@ -120,5 +122,5 @@ def _stl(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:
     facet = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
     facet["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
     facet["corners"] = corners
-    header = f"bikestab: {about['axes']}".encode("ascii", "replace")[:80].ljust(80)
+    header = f"bikestab: {about['axes']}".encode()[:80].ljust(80)
     return header + np.uint32(len(facet)).tobytes() + facet.tobytes()
