@@ -122,5 +122,5 @@ def _stl(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:
     facet = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
     facet["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
     facet["corners"] = corners
-    header = f"bikestab: {about['axes']}".encode()[:80].ljust(80)
-    return header + np.uint32(len(facet)).tobytes() + facet.tobytes()
+    header = f"bikestab: {about['axes']}".encode()[:80].ljust(80)  # "solid" first would mean text
+    return header + np.array(len(facet), "<u4").tobytes() + facet.tobytes()
