@@ -131,7 +131,8 @@ def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> F
         a = np.where(right, a, x)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             new = np.where(f == 0, x, x - f / slope)
-        new = np.where((new >= a) & (new <= b), new, np.sqrt(a * b))
+        inside = ((new > a) & (new < b)) | (new == x)  # from one end to the other Newton may go in circles
+        new = np.where(inside, new, np.sqrt(a * b))
         new = np.where(active, new, x)  # a root that is found does not depend on its company
         active = (np.abs(new - x) > close * x) & (b - a > 2**-51 * b)
         root[cell] = x = new

@@ -7,7 +7,10 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 from numpy.polynomial.polynomial import polyfromroots
 
+from bikestab.bicycle import Bicycle
+from bikestab.model import characteristic_table
 from bikestab.roots import positive_roots, sign_near_zero
+from bikestab.routh import condition_polynomials
 from tests.references.generate_speeds import roots
 
 EPS = np.finfo(float).eps
@@ -154,3 +157,15 @@ def test_random_roots(x, negative):
     assert np.all(np.diff(got) > 0)
     for value, y, k in zip(got, expected, condition, strict=True):
         assert abs(value - y) <= ROUNDING * k * y
+
+
+def test_a_search_that_newton_alone_would_never_end():
+    """hurwitz3 of this design sent Newton's steps from one end of a bracket to the other and back."""
+    bicycle = Bicycle.preset("meijaard2007").with_delta(1.0)
+    lam, sigma = np.linspace(-0.2, 0.8, 401)[9], np.linspace(-0.1, 0.5, 401)[72]
+    table = characteristic_table(bicycle, lam, sigma, model="unrefined")
+    poly = condition_polynomials(table)["hurwitz3"]
+    mine = positive_roots(poly[:, np.newaxis])[:, 0]
+    real = np.roots(poly[::-1])
+    real = np.sort(real.real[(np.abs(real.imag) < 1e-9) & (real.real > 0)])
+    np.testing.assert_allclose(mine[np.isfinite(mine)], real, rtol=1e-9)
