@@ -11,6 +11,7 @@ from contourpy import contour_generator
 from scipy.optimize import elementwise
 
 from bikestab.bicycle import Bicycle
+from bikestab.errors import ScanError
 from bikestab.events import Box, event_at
 from bikestab.model import Floats, Model
 from bikestab.skeleton import CurveName, curve_functions
@@ -62,7 +63,8 @@ def trace(
     """Every piece of every curve in a box λ [rad] × σ [1] × V [m/s].
 
     Sign changes of the curve functions between the nodes of a grid (``samples`` per axis) are refined
-    along its lines, so a closed piece smaller than a cell of this grid is not seen.
+    along its lines, so a closed piece smaller than a cell of this grid is not seen. Raises ScanError if
+    a zero cannot be refined.
     """
     box = Box(bicycle, model, np.array([lam, sigma], dtype=float), V)
     nodes = np.linspace(0, 1, samples)
@@ -100,6 +102,8 @@ def _refined(box: Box, key: CurveName, lines: list[Floats], nodes: Floats) -> li
         tolerances={"xatol": 1e-16, "xrtol": 1e-15},
     )  # fmt: skip
     t = (points - low)[np.argmax(high - low, axis=0), np.arange(len(zero))] * (len(nodes) - 1)
+    if not root.success.all():
+        raise ScanError(f"the curve {key!r} could not be refined everywhere; please report this")
     t[moving] = root.x
     moved = np.split(low + t * (high - low), np.cumsum([line.shape[1] for line in lines])[:-1], axis=1)
     return [line[:, np.append(True, np.abs(np.diff(line, axis=1)).sum(axis=0) > 0)] for line in moved]

@@ -25,7 +25,7 @@ class Box(NamedTuple):
 
     def real(self, points: Floats) -> Floats:
         low, high = self.ends.T.reshape(2, 2, *(1,) * (points.ndim - 1))
-        return low + (high - low) * points
+        return low * (1 - points) + high * points  # the ends exactly
 
     def table(self, points: Floats) -> Floats:
         return characteristic_table(self.bicycle, *self.real(points), model=self.model)

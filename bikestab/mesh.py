@@ -18,7 +18,7 @@ from bikestab.errors import ScanError
 from bikestab.events import Box, event_at
 from bikestab.model import Floats, Model
 from bikestab.plane import FACES, Index, Plane, halved, triangulated
-from bikestab.skeleton import CurveName
+from bikestab.skeleton import CurveName, reduced
 from bikestab.spectrum import growth_rate
 from bikestab.speeds import CAPSIZE, NONE, WEAVE, critical_speeds, stable_intervals
 
@@ -70,10 +70,15 @@ def region_mesh(
     """The boundary of the stable region within a box λ [rad] × σ [1] × V [m/s].
 
     ``cells`` is the number of triangles along λ and along σ; what is smaller than a cell and bounded by
-    no traced curve is not seen. Raises ScanError if the surface has holes; without ``whole`` small ones
-    are left, and the mesh is there sooner.
+    no traced curve is not seen. Raises ScanError if the surface has holes or vertical walls; without
+    ``whole`` these are left open, and the mesh is there sooner.
     """
     box = Box(bicycle, model, np.array([lam, sigma], dtype=float), V)
+    if whole and _has_walls(box):
+        raise ScanError(
+            "p0 does not depend on the speed, so capsize starts at all speeds at once: the boundary has a "
+            "vertical wall there, which a mesh of sheets V1 and V2 cannot show"
+        )
     for finer in _TRACED:
         curves = trace(bicycle, lam, sigma, V, model=model, samples=finer * cells + 1)
         mesh = _lifted(box, _parted(box, triangulated(box, curves, cells)))
@@ -83,8 +88,13 @@ def region_mesh(
     at = mesh.points[holes[0, 0]]
     raise ScanError(
         f"the boundary near λ = {at[0]:.6g}, σ = {at[1]:.6g}, V = {at[2]:.6g} m/s is too fine for this mesh: "
-        f"{len(holes)} open edges; take more cells"
+        f"{len(holes)} open edges; another number of cells or a smaller box may help"
     )
+
+
+def _has_walls(box: Box) -> bool:
+    p0 = reduced(box.table(np.random.default_rng(0).uniform(size=(2, 10_000)))).polynomials["p0"]
+    return len(p0) == 1 and bool(p0.min() < 0 < p0.max())
 
 
 class _Ends(NamedTuple):

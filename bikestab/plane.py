@@ -12,6 +12,7 @@ from scipy.optimize import elementwise
 from scipy.spatial import Delaunay, cKDTree
 
 from bikestab.curves import Curve
+from bikestab.errors import ScanError
 from bikestab.events import Box, event_at
 from bikestab.model import Floats
 from bikestab.routh import conditions
@@ -118,10 +119,13 @@ def _cut(plane: Plane, name: str, value: Function, relevant: Relevant | None, tr
 
     t = np.empty(0)
     if len(crossed):
-        t = elementwise.find_root(
+        root = elementwise.find_root(
             along, (np.zeros(len(crossed)), np.ones(len(crossed))), args=(*a, *b),
             tolerances={"xatol": 1e-16, "xrtol": 1e-15},
-        ).x  # fmt: skip
+        )  # fmt: skip
+        if not root.success.all():
+            raise ScanError(f"the cut along {name!r} could not be refined everywhere; please report this")
+        t = root.x
     new = a + t * (b - a)
     both = {other: np.zeros(len(crossed), bool) for other in plane.on}
     for other, function in plane.cuts.items():  # along a chord of another curve: to where the curves cross

@@ -14,6 +14,7 @@ from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from bikestab.config import AXES
+from bikestab.events import Box
 from bikestab.mesh import Mesh, region_mesh
 from bikestab.model import Floats
 from bikestab.plot_axes import LABELS, remarks
@@ -36,8 +37,8 @@ def draw_region(volume: Volume) -> Figure:
     ends = np.array(box)
     if len(mesh.triangles):
         _surface(ax, mesh, ends)
-        _rim(ax, mesh, ends)
-        _legend(figure, mesh, ends)
+        lines = _rim(ax, mesh, Box(volume.bicycle, volume.model, ends[:2], box[2]))
+        _legend(figure, mesh, lines)
     else:
         ax.text2D(0.5, 0.5, "no stable motion in this box", transform=ax.transAxes, ha="center")
     ax.set(
@@ -66,25 +67,31 @@ def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
     ax.add_collection3d(Poly3DCollection(corners, facecolors=faces, edgecolors=faces, linewidths=0.25))
 
 
-def _rim(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
-    """Where V1 and V2 meet, where the two sheets do, and where the surface leaves the box."""
+def _rim(ax: Axes3D, mesh: Mesh, box: Box) -> list[Line2D]:
+    """Where sheets meet, where the surface leaves the box, and where it is open; and what says so."""
     sides = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
     edges, index, count = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
     sheet = np.repeat(mesh.kind * 2 + mesh.upper, 3)
     low, high = np.full(len(edges), 99), np.zeros(len(edges), int)
     np.minimum.at(low, index.ravel(), sheet)
     np.maximum.at(high, index.ravel(), sheet)
-    for chosen, style in ((low != high, "-"), (count == 1, (0, (1.5, 1)))):
-        lines = mesh.points[edges[chosen]]
-        ax.add_collection3d(Line3DCollection(lines, colors="0.1", linewidths=0.9, linestyles=[style]))
+    torn = mesh.open_edges(box)
+    faces = {(int(a), int(b)) for a, b in edges[count == 1]} - {(int(a), int(b)) for a, b in torn}
+    handles = []
+    for lines, style, label in (
+        (edges[low != high], "-", "the sheets meet"),
+        (np.array(sorted(faces)).reshape(-1, 2), (0, (1.5, 1)), "the region goes on beyond the box"),
+        (torn, (0, (5, 1.5, 1, 1.5)), "a vertical wall, or too fine to draw"),
+    ):
+        if len(lines):
+            points = mesh.points[lines.astype(int)]
+            ax.add_collection3d(Line3DCollection(points, colors="0.1", linewidths=0.9, linestyles=[style]))
+            handles.append(Line2D([], [], color="0.1", lw=0.9, ls=style, label=label))
+    return handles
 
 
-def _legend(figure: Figure, mesh: Mesh, ends: Floats) -> None:
-    handles: list[Patch | Line2D] = [
+def _legend(figure: Figure, mesh: Mesh, lines: list[Line2D]) -> None:
+    patches = [
         Patch(facecolor=colour, label=label) for kind, (colour, label) in SHEETS.items() if kind in mesh.kind
     ]
-    handles.append(Line2D([], [], color="0.1", lw=0.9, label="the sheets meet"))
-    handles.append(
-        Line2D([], [], color="0.1", lw=0.9, ls=(0, (1.5, 1)), label="the region goes on beyond the box")
-    )
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False)
+    figure.legend(handles=[*patches, *lines], loc="outside lower center", ncols=2, frameon=False)

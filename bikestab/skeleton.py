@@ -24,7 +24,8 @@ CurveName = Literal[
     "capsize at rest", "weave at rest", "singular inertia",
 ]  # fmt: skip
 _UNIT = 5.0  # m/s: roots of about one keep the determinants in range
-_PIECES, _NODES = 12, 24  # Chebyshev pieces of a line, and their nodes
+_PIECE, _NODES = 0.05, 24  # longest Chebyshev piece of a line, and its nodes
+_PIECES = 12, 4000  # least and largest number of pieces: lines longer than 200 are followed less closely
 _NOISE = 1e-13  # of a function's largest value on a piece: what its determinant is not sure of
 _NEARLY_REAL = 1e-6  # of half a piece: a double zero may come as a pair of complex ones
 
@@ -108,7 +109,8 @@ def stable_ranges(
     """For each line the ranges of the other parameter, within low … high, with a stable speed.
 
     Give ``lam`` [rad] for ranges of σ, or ``sigma`` for ranges of λ. The ends are zeros of the curve
-    functions, right to rounding, or low and high themselves; the region is not sampled.
+    functions, right to rounding (to about 1e-10 where two nearly touch), or low and high themselves; the
+    region is not sampled.
     """
     line = Line(bicycle, model, lam, sigma)
     cuts = crossings(line, low, high)
@@ -150,7 +152,7 @@ def crossings(line: Line, low: float, high: float) -> Floats:
     Lines with fewer crossings than others repeat ``high``. The curve functions are analytic along a
     line, so on short pieces they are polynomials to rounding, all of whose zeros are eigenvalues.
     """
-    ends = np.linspace(low, high, _PIECES + 1)
+    ends = np.linspace(low, high, int(np.clip(np.ceil((high - low) / _PIECE), *_PIECES)) + 1)
     middle, half = 0.5 * (ends[1:] + ends[:-1]), 0.5 * (ends[1:] - ends[:-1])
     nodes = middle[:, np.newaxis] + half[:, np.newaxis] * chebyshev.chebpts1(_NODES)
     lines = len(line.fixed)
@@ -160,7 +162,7 @@ def crossings(line: Line, low: float, high: float) -> Floats:
     order = np.lexsort((found, row))
     row, found = row[order], np.clip(found[order], low, high)
     count = np.bincount(row, minlength=lines)
-    cuts = np.full((lines, int(count.max(initial=0)) + 2), high)
+    cuts = np.full((lines, int(count.max(initial=0)) + 2), float(high))
     cuts[:, 0] = low
     cuts[row, 1 + np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)] = found
     return cuts

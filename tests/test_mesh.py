@@ -160,6 +160,17 @@ def test_an_empty_box():
     assert len(mesh.kind) == len(mesh.upper) == len(mesh.decay) == 0
 
 
+def test_a_vertical_wall_is_refused():
+    """Where p0 does not depend on the speed, capsize starts at all speeds at once."""
+    box = (0.0, 0.3), (0.0, 0.15), (0.0, 10.0)
+    skates = Bicycle.preset("kooijman2011")
+    with pytest.raises(ScanError, match="vertical wall"):
+        region_mesh(skates, *box, cells=20)
+    mesh = region_mesh(skates, *box, cells=20, whole=False)
+    assert len(mesh.triangles)
+    assert len(mesh.open_edges(Box(skates, "refined", np.array(box[:2]), box[2])))
+
+
 def test_both_kinds_are_there():
     mesh = region_mesh(*CASES["1981 unbounded"], cells=30)
     assert set(mesh.kind) == {WEAVE, CAPSIZE}

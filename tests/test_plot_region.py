@@ -57,6 +57,14 @@ def test_axes_are_the_volumes_box(drawn):
     assert ax.get_title().startswith("a box\nmeijaard2007")
 
 
+def test_one_sheet_and_an_open_side(drawn):
+    figure = drawn("kooijman2011")
+    assert "weave boundary" in words(figure)
+    assert "capsize boundary" not in words(figure)
+    assert "a vertical wall, or too fine to draw" in words(figure)
+    assert "a vertical wall, or too fine to draw" not in words(drawn())
+
+
 def test_nothing_stable(drawn):
     figure = drawn(model="unrefined")
     assert "no stable motion in this box" in words(figure)

@@ -71,6 +71,15 @@ def test_shapes_and_nothing_there():
     assert np.isnan(lam_min(MEIJAARD, 0.0, high=0.1))
 
 
+def test_ranges_of_whole_numbers_and_long_ones():
+    damped = DIKAREV.with_delta(0.5)
+    expected = sigma_min(damped, [0.05, 0.1, 0.2])
+    for high in (1, 5.0, 100):
+        np.testing.assert_allclose(sigma_min(damped, [0.05, 0.1, 0.2], high=high), expected, atol=1e-11)
+    assert not has_stable(damped, np.array([0.05, 0.1, 0.2]), expected - 1e-9).any()
+    assert has_stable(damped, np.array([0.05, 0.1, 0.2]), expected + 1e-9).all()
+
+
 @settings(max_examples=30, deadline=None)
 @given(machines, sigmas)
 def test_random_machines(machine, sigma):

@@ -117,7 +117,11 @@ def command(
         raise click.BadParameter(f"{error.problem}; {hint}", param_hint=option) from None
     if output:
         _check_picture(output, lam, sigma)
+    if csv_file and output and Path(csv_file).absolute() == Path(output).absolute():
+        raise click.BadParameter(f"{csv_file!r} is the picture too", param_hint="--csv")
     best = best_designs(wanted)
+    if not as_json:
+        click.echo(_told(wanted, best))
     files = {}
     if csv_file:
         files["front"] = written(csv_file, lambda path: _write_csv(best.pareto, path))
@@ -133,16 +137,13 @@ def command(
         head |= {"trail": trail, "V_max": V_max, "judged": judged, "stable": stable}
         print_json({**head, **best._asdict(), **files})
     else:
-        click.echo(_told(wanted, best))
         for kind, name in files.items():
             click.echo(f"{kind}: {name}")
 
 
 def _check_picture(output: str, lam: Ends, sigma: Ends) -> None:
-    if not Path(output).suffix:
-        raise click.BadParameter(
-            f"{output!r} has no ending, such as .png, .pdf or .svg", param_hint="--output"
-        )
+    if Path(output).suffix.lower() not in (".png", ".pdf", ".svg"):
+        raise click.BadParameter(f"{output!r} has no ending .png, .pdf or .svg", param_hint="--output")
     for name, ends in (("--lam", lam), ("--sigma", sigma)):
         if ends[0] == ends[1]:
             raise click.BadParameter(

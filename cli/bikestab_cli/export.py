@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -24,8 +24,8 @@ class _Scale(click.ParamType):
             factors = tuple(float(part) for part in str(value).split(","))
         except ValueError:
             factors = ()
-        if len(factors) != 3 or not all(0 < factor < math.inf for factor in factors):
-            self.fail(f"{value!r} is not three positive numbers such as 50,100,1", param, ctx)
+        if len(factors) != 3 or not all(1e-9 <= factor <= 1e9 for factor in factors):
+            self.fail(f"{value!r} is not three numbers from 1e-9 to 1e9 such as 50,100,1", param, ctx)
         return factors
 
 
@@ -84,6 +84,12 @@ def command(
     for names, known in ((meshes, MESHES), (intervals + skeleton, TABLES)):
         for name in names:
             file_format(name, known)  # before the computation, which takes seconds
+    places = [Path(name).absolute() for name in (*meshes, *intervals, *skeleton)]
+    for place in places:
+        if places.count(place) > 1:
+            raise click.UsageError(f"{place.name} is asked for twice", click.get_current_context())
+        if not place.parent.is_dir():
+            raise click.UsageError(f"there is no folder {place.parent}", click.get_current_context())
     with Volume(volume) as opened:
         about = _about(opened)
         if intervals:

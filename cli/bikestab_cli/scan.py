@@ -111,9 +111,17 @@ def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:
     from bikestab.plot_region import draw_region
     from bikestab.volume import Volume
 
-    pictures = [result.path.parent / "region.png"]
+    pictures = []
     with Volume(result.path) as volume:
-        save(draw_region(volume), pictures[0])
+        path = result.path.parent / "region.png"
+        try:
+            figure = draw_region(volume)
+        except Exception as error:  # the volume and the other pictures are worth more than this one
+            text = f"{type(error).__name__}: {error}".rstrip(": ")
+            click.echo(f"warning: {path} cannot be drawn ({text}); please report this", err=True)
+        else:
+            save(figure, path)
+            pictures.append(path)
         for plane in config.slices:
             fixed, value = plane.fixed
             pictures.append(result.path.parent / slice_name(fixed, value))

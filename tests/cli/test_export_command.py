@@ -157,11 +157,13 @@ def test_nothing_wanted(bikestab, volumes):
         ("--intervals", "i.xlsx", "known: .csv, .parquet"),
         ("--skeleton", "s.cvs", "did you mean '.csv'?"),
         ("--cells", "5", "10<=x<=400"),
-        ("--scale", "1,2", "'1,2' is not three positive numbers such as 50,100,1"),
-        ("--scale", "1,0,1", "not three positive"),
-        ("--scale", "1,inf,1", "not three positive"),
-        ("--scale", "1,nan,1", "not three positive"),
-        ("--scale", "a,b,c", "not three positive"),
+        ("--scale", "1,2", "'1,2' is not three numbers from 1e-9 to 1e9 such as 50,100,1"),
+        ("--scale", "1,1e300,1", "not three numbers"),
+        ("--skeleton", "i.csv", "i.csv is asked for twice"),
+        ("--scale", "1,0,1", "not three numbers"),
+        ("--scale", "1,inf,1", "not three numbers"),
+        ("--scale", "1,nan,1", "not three numbers"),
+        ("--scale", "a,b,c", "not three numbers"),
     ],
 )
 def test_mistakes_in_options(bikestab, volumes, tmp_path, option, value, expected):

@@ -181,3 +181,17 @@ def test_a_name_too_long(scan):
     code, _, err = scan("a.yaml", "--set", "output=" + "a" * 300)
     assert code == 2
     assert "output: " in err
+
+
+def test_a_picture_that_cannot_be_drawn_costs_nothing_else(scan, monkeypatch):
+    def broken(volume):
+        raise ValueError("no such luck")
+
+    monkeypatch.setattr("bikestab.plot_region.draw_region", broken)
+    Path("a.yaml").write_text(SLICED)
+    code, out, err = scan("a.yaml", "b.yaml")
+    assert code == 0
+    assert len(out.splitlines()) == 2
+    assert err.count("region.png cannot be drawn (ValueError: no such luck)") == 2
+    assert "out/a/slice_lam_0.2.png" in outputs()
+    assert "out/a/region.png" not in outputs()
