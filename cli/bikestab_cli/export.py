@@ -128,7 +128,8 @@ def _write_skeleton(volume: Volume, names: tuple[str, ...], about: dict[str, str
     from bikestab.tables import SKELETON, save_table, skeleton_blocks
 
     bicycle = volume.bicycle
-    curves = trace(bicycle, *_box(volume), model=volume.model)
+    lam, sigma, _ = _box(volume)  # at all speeds: two of the curves are at infinite ones
+    curves = trace(bicycle, lam, sigma, model=volume.model)
     points = sum(len(curve.lam) for curve in curves)
     for name in names:
         written(name, lambda path: save_table(SKELETON, skeleton_blocks(curves, bicycle.c), path, about))
