@@ -27,7 +27,7 @@ output: {output}
 def drawn(tmp_path):
     def draw(bicycle="dikarev1981", model="refined"):
         path = tmp_path / "c.yaml"
-        path.write_text(CONFIG.format(bicycle=bicycle, model=model, output=tmp_path / "out"))
+        path.write_text(CONFIG.format(bicycle=bicycle, model=model, output=tmp_path / bicycle))
         with Volume(run_scan(load_config(path)).path) as volume:
             return draw_region(volume)
 

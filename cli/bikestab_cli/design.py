@@ -119,6 +119,9 @@ def command(
         _check_picture(output, lam, sigma)
     if csv_file and output and Path(csv_file).absolute() == Path(output).absolute():
         raise click.BadParameter(f"{csv_file!r} is the picture too", param_hint="--csv")
+    for name in filter(None, (output, csv_file)):
+        if not Path(name).absolute().parent.is_dir():
+            raise InputError("cannot be written (No such file or directory)", place=name)
     best = best_designs(wanted)
     if not as_json:
         click.echo(_told(wanted, best))

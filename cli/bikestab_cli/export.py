@@ -71,6 +71,7 @@ def command(
       bikestab export out/quick --mesh region.vtp --mesh region.stl --scale 50,100,1
       bikestab export out/quick --intervals intervals.parquet
     """
+    from bikestab.errors import InputError
     from bikestab.fileformat import file_format
     from bikestab.meshfile import MESHES
     from bikestab.tables import TABLES
@@ -84,12 +85,13 @@ def command(
     for names, known in ((meshes, MESHES), (intervals + skeleton, TABLES)):
         for name in names:
             file_format(name, known)  # before the computation, which takes seconds
-    places = [Path(name).absolute() for name in (*meshes, *intervals, *skeleton)]
-    for place in places:
+    names = (*meshes, *intervals, *skeleton)
+    places = [Path(name).absolute() for name in names]
+    for name, place in zip(names, places, strict=True):
         if places.count(place) > 1:
-            raise click.UsageError(f"{place.name} is asked for twice", click.get_current_context())
+            raise click.UsageError(f"{name} is asked for twice", click.get_current_context())
         if not place.parent.is_dir():
-            raise click.UsageError(f"there is no folder {place.parent}", click.get_current_context())
+            raise InputError("cannot be written (No such file or directory)", place=name)
     with Volume(volume) as opened:
         about = _about(opened)
         if intervals:

@@ -161,7 +161,7 @@ def test_nothing_wanted(bikestab, volumes):
         ("--cells", "5", "10<=x<=400"),
         ("--scale", "1,2", "'1,2' is not three numbers from 1e-9 to 1e9 such as 50,100,1"),
         ("--scale", "1,1e300,1", "not three numbers"),
-        ("--skeleton", "i.csv", "i.csv is asked for twice"),
+        ("--skeleton", "good.csv", "good.csv is asked for twice"),
         ("--scale", "1,0,1", "not three numbers"),
         ("--scale", "1,inf,1", "not three numbers"),
         ("--scale", "1,nan,1", "not three numbers"),
