@@ -3,13 +3,12 @@
 import json
 import math
 import shutil
-import sys
 from pathlib import Path
 
 import h5py
 import jsonschema
 import pytest
-from bikestab_cli.main import COMMANDS, main
+from bikestab_cli.main import COMMANDS
 from ruamel.yaml import YAML
 
 from bikestab import __version__, yamltext
@@ -34,20 +33,6 @@ def volume(tmp_path_factory):
     folder = tmp_path_factory.mktemp("volume")
     text = CONFIG.replace("OUT", str(folder))
     return run_scan(parse_config(yamltext.parse(text, "scan.yaml"))).path
-
-
-@pytest.fixture
-def bikestab(monkeypatch, capsys, tmp_path):
-    """Run a command in an empty folder: exit code, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*args):
-        monkeypatch.setattr(sys, "argv", ["bikestab", *map(str, args)])
-        with pytest.raises(SystemExit) as exit_:
-            main()
-        return exit_.value.code, *capsys.readouterr()
-
-    return run
 
 
 def mistake(result, expected):

@@ -2,11 +2,10 @@
 
 import csv
 import json
-import sys
+from functools import partial
 
 import jsonschema
 import pytest
-from bikestab_cli.main import main
 
 from bikestab import design as module
 from bikestab import search
@@ -35,22 +34,12 @@ SCHEMA = {
 
 
 @pytest.fixture
-def design(monkeypatch, capsys, tmp_path):
-    """Run the command on a coarse grid in an empty folder: exit code, stdout, stderr without warnings."""
-    monkeypatch.chdir(tmp_path)
+def design(monkeypatch, without_warnings):
+    """Run the command on a coarse grid."""
     monkeypatch.setattr(module, "GRID", 31)
     monkeypatch.setattr(search, "ROUNDS", 12)
     monkeypatch.setattr(search, "ROUNDS_TOGETHER", 6)
-
-    def run(*args):
-        monkeypatch.setattr(sys, "argv", ["bikestab", "design", *args])
-        with pytest.raises(SystemExit) as exit_:
-            main()
-        out, err = capsys.readouterr()
-        errors = [line for line in err.splitlines(keepends=True) if not line.startswith("warning: ")]
-        return exit_.value.code, out, "".join(errors)
-
-    return run
+    return partial(without_warnings, "design")
 
 
 def test_json_and_its_schema(design):

@@ -8,7 +8,6 @@ import sys
 import h5py
 import numpy as np
 import pytest
-from bikestab_cli.main import main
 
 from bikestab import yamltext
 from bikestab.config import parse_config
@@ -42,20 +41,6 @@ def volumes(tmp_path_factory):
         run_scan(parse_config(yamltext.parse(text, "scan.yaml")))
         folders[name] = folder
     return folders
-
-
-@pytest.fixture
-def bikestab(monkeypatch, capsys, tmp_path):
-    """Run a command in an empty folder: exit code, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*args):
-        monkeypatch.setattr(sys, "argv", ["bikestab", *map(str, args)])
-        with pytest.raises(SystemExit) as exit_:
-            main()
-        return exit_.value.code, *capsys.readouterr()
-
-    return run
 
 
 def mistake(result, *expected):

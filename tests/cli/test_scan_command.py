@@ -1,12 +1,11 @@
 """bikestab scan: what it writes, what it prints, what it refuses."""
 
 import json
-import sys
+from functools import partial
 from pathlib import Path
 
 import h5py
 import pytest
-from bikestab_cli.main import main
 
 CONFIG = """\
 bicycle: dikarev1981
@@ -19,21 +18,11 @@ SLICED = CONFIG + "slices: [{lam: 0.2}]\n"
 
 
 @pytest.fixture
-def scan(monkeypatch, capsys, tmp_path):
-    """Run the command in a folder with a.yaml, b.yaml: exit code, stdout, stderr without warnings."""
-    monkeypatch.chdir(tmp_path)
+def scan(without_warnings):
+    """Run the command in a folder with a.yaml and b.yaml."""
     for name in ("a", "b"):
         Path(f"{name}.yaml").write_text(CONFIG)
-
-    def run(*args):
-        monkeypatch.setattr(sys, "argv", ["bikestab", "scan", *args])
-        with pytest.raises(SystemExit) as exit_:
-            main()
-        out, err = capsys.readouterr()
-        errors = [line for line in err.splitlines(keepends=True) if not line.startswith("warning: ")]
-        return exit_.value.code, out, "".join(errors)
-
-    return run
+    return partial(without_warnings, "scan")
 
 
 def outputs():

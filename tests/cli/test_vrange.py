@@ -5,6 +5,7 @@ import math
 import os
 import subprocess
 import sys
+from functools import partial
 
 import pytest
 from bikestab_cli.main import main
@@ -14,19 +15,8 @@ from bikestab.nearest import nearest_stable
 
 
 @pytest.fixture
-def vrange(monkeypatch, capsys, tmp_path):
-    """Run the command in an empty folder: exit code, stdout, stderr without warnings."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*args):
-        monkeypatch.setattr(sys, "argv", ["bikestab", "vrange", *args])
-        with pytest.raises(SystemExit) as exit_:
-            main()
-        out, err = capsys.readouterr()
-        errors = [line for line in err.splitlines(keepends=True) if not line.startswith("warning: ")]
-        return exit_.value.code, out, "".join(errors)
-
-    return run
+def vrange(without_warnings):
+    return partial(without_warnings, "vrange")
 
 
 def results(vrange, *args):
