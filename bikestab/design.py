@@ -78,9 +78,9 @@ class Best(NamedTuple):
     closest: Design | None
 
 
-def best_designs(wanted: Wanted) -> Best:
-    """Search the box, starting from GRID × GRID designs; the same question has the same answer."""
-    search = _Search(wanted)
+def best_designs(wanted: Wanted, *, grid: int = GRID) -> Best:
+    """Search the box, starting from grid × grid designs; the same question has the same answer."""
+    search = _Search(wanted, grid)
     own = _own(wanted)
     nearest = search.best(miss) if search.on_grid(width).min() >= 0 else None
     if nearest and nearest.value > 0:
@@ -104,10 +104,10 @@ def best_designs(wanted: Wanted) -> Best:
 class _Search:
     """The grid of a box, and searches that start from it."""
 
-    def __init__(self, wanted: Wanted) -> None:
+    def __init__(self, wanted: Wanted, grid: int) -> None:
         self.wanted = wanted
         self.low, self.high = wanted.box
-        lam, sigma = axes(self.low, self.high, GRID)
+        lam, sigma = axes(self.low, self.high, grid)
         self.shape = len(lam), len(sigma)
         self.x = np.stack(np.meshgrid(lam, sigma, indexing="ij")).reshape(2, -1)
         self.step = (self.high - self.low) / np.maximum(np.array(self.shape) - 1, 1)
