@@ -9,7 +9,7 @@ import numpy as np
 from bikestab import claims, paper
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, characteristic_table, coefficients
-from bikestab.paper import LAM, SIGMA, V
+from bikestab.paper import LAM, SIGMA
 from bikestab.skeleton import sigma_min
 from bikestab.speeds import CAPSIZE, WEAVE, stable_intervals
 
@@ -51,6 +51,7 @@ def damping(bicycle: Bicycle, n: int, deltas: tuple[float, ...] = DELTAS) -> Num
     marked = _marked(list(deltas), rows)
     return {
         "designs": n * n,
+        "verdict_by_measure": {name: claims.judge_damping(delta) for name, delta in marked.items()},
         "deltas": list(deltas),
         "without": {"volume": still.volume, "sigma_min": still.folds},
         "folds_at_lam": list(FOLDS),
@@ -88,8 +89,7 @@ class _Region:
     def __init__(self, bicycle: Bicycle, lam: Floats, sigma: Floats) -> None:
         self.table = characteristic_table(bicycle, lam, sigma)
         found = stable_intervals(self.table)
-        width = np.where(found.upper > 0, np.maximum(np.minimum(found.V2, V[1]) - found.V1, 0), 0)
-        self.volume = float(width.sum(axis=-1).mean()) * (LAM[1] - LAM[0]) * (SIGMA[1] - SIGMA[0])
+        self.volume = float(paper.widths(found).sum(axis=-1).mean()) * (LAM[1] - LAM[0]) * (SIGMA[1] - SIGMA[0])
         self.weave, self.V1 = found.lower[..., 0] == WEAVE, found.V1[..., 0]
         self.unbounded = np.isinf(found.V2).any(axis=-1)
         folds = sigma_min(bicycle, FOLDS, high=SIGMA[1]).tolist()

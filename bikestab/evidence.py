@@ -124,28 +124,33 @@ def on_random_machines(size: Size) -> Numbers:
 
 
 def widening(found: Map) -> Numbers:
-    """Conclusion 2 on a map: how the width changes from design to design along both axes."""
+    """Conclusion 2 on a map: how the width of the widest interval changes between neighbouring designs.
+
+    Two unbounded intervals are equally wide, and steps between them count for nothing.
+    """
     W = found.widest
-    along_sigma = np.diff(W, axis=1)[W[:, :-1] > 0]
-    both = (W[:-1] > 0) & (W[1:] > 0)
-    step = -np.diff(W, axis=0)  # to the smaller λ
-    best = np.argmax(W, axis=0)
-    good = [bool(0 < W[k, j]) and _falls(W[k:, j]) for j, k in enumerate(best.tolist())]
+    larger_sigma, smaller_lam = (_share_widened(a, b) for a, b in ((W[:, :-1], W[:, 1:]), (W[1:], W[:-1])))
+    best = len(W) - 1 - np.argmax(W[::-1], axis=0)  # of equally wide ones that with the largest tilt
+    good = [0 < W[k, j] and _falls(W[k:, j]) for j, k in enumerate(best.tolist())]
     first = next((j for j in range(len(good)) if all(good[j:])), None)
-    top = np.unravel_index(np.argmax(W), W.shape)
     return {
         "designs": W.size,
-        "larger_sigma_widens": float(np.mean(along_sigma >= -_TIE)) if along_sigma.size else 0.0,
-        "smaller_lam_widens": float(np.mean(step[both] > _TIE)) if both.any() else 0.0,
+        "larger_sigma_widens": larger_sigma,
+        "smaller_lam_widens": smaller_lam,
         "sigma_from": None if first is None else float(found.sigma[first]),
-        "lam_best": None if first is None else float(found.lam[best[-1], 0]),
-        "reaches_zero": first is not None and bool(np.all(best[first:] == 0)),
-        "widest": {"lam": float(found.lam[top[0], 0]), "sigma": float(found.sigma[top[1]]), "width": float(W.max())},
+        "sigma_step": float(found.sigma[1] - found.sigma[0]),
+        "reaches_zero": first is not None and bool(np.all(W[0, first:] >= W.max(axis=0)[first:])),
     }
 
 
+def _share_widened(before: Floats, after: Floats) -> float:
+    """The share of steps between stable designs that do not narrow the interval."""
+    counts = (before > 0) & (after > 0) & (np.isfinite(before) | np.isfinite(after))
+    return float(np.mean(after[counts] >= before[counts] - _TIE)) if counts.any() else 0.0
+
+
 def _falls(values: Floats) -> bool:
-    return len(values) > 1 and bool(np.all(np.diff(values) <= _TIE))
+    return len(values) > 1 and bool(np.all(values[1:] <= values[:-1] + _TIE))
 
 
 def widths_along_lines(bicycle: Bicycle, steps: int) -> Numbers:
@@ -168,7 +173,7 @@ def widths_along_lines(bicycle: Bicycle, steps: int) -> Numbers:
 
 def _widths(bicycle: Bicycle, lam: Any, sigma: Any) -> Floats:
     found = stable_intervals(characteristic_table(bicycle, lam, sigma))
-    return np.where(found.upper > 0, np.maximum(np.minimum(found.V2, V[1]) - found.V1, 0), 0).max(axis=-1)
+    return paper.widths(found).max(axis=-1)
 
 
 def _widest(bicycle: Bicycle, lam: Any, sigma: Any) -> tuple[float, float]:

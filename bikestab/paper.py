@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.skeleton import Line, crossings
-from bikestab.speeds import stable_intervals
+from bikestab.speeds import Intervals, stable_intervals
 
 Range = tuple[float, float]
 LAM: Range = (0.0, 0.3)  # rad; section 2 of the paper
@@ -42,7 +42,8 @@ class Map(NamedTuple):
     """Stable speeds of n × n designs, at the middles of equal cells of a box.
 
     ``lam`` (n, 1) [rad] and ``sigma`` (n,); (n, n): ``number`` of stable intervals, whether one is
-    ``unbounded``, whether the ``formula`` says so, and the ``total`` and ``widest`` width [m/s] up to the cap.
+    ``unbounded``, whether the ``formula`` says so, the ``total`` width [m/s] up to the paper's highest speed, and the width of the
+    ``widest`` interval without any cap.
     """
 
     lam: Floats
@@ -69,7 +70,7 @@ def middles(ends: Range, n: int) -> Floats:
 def designs(
     bicycle: Bicycle, n: int, *, lam: Range = LAM, sigma: Range = SIGMA, model: Model = "refined"
 ) -> Map:
-    """The map of n × n designs of a box; widths count up to the paper's highest speed."""
+    """The map of n × n designs of a box."""
     x, y = middles(lam, n)[:, np.newaxis], middles(sigma, n)
     rows = max(_ROWS // n, 1)
     parts = [_judged(characteristic_table(bicycle, x[i : i + rows], y, model=model)) for i in range(0, n, rows)]
@@ -78,10 +79,14 @@ def designs(
 
 def _judged(table: Floats) -> tuple[NDArray, ...]:
     found = stable_intervals(table)
-    widths = np.where(found.upper > 0, np.maximum(np.minimum(found.V2, V[1]) - found.V1, 0), 0)
+    widest = np.where(found.upper > 0, found.V2 - found.V1, 0).max(axis=-1)
     unbounded = np.isinf(found.V2).any(axis=-1)
-    formula = stable_at_high_speed(table)
-    return found.number, unbounded, formula, widths.sum(axis=-1), widths.max(axis=-1)
+    return found.number, unbounded, stable_at_high_speed(table), widths(found).sum(axis=-1), widest
+
+
+def widths(found: Intervals) -> Floats:
+    """The widths [m/s] of stable intervals up to the paper's highest speed; 0 behind the last."""
+    return np.where(found.upper > 0, np.maximum(np.minimum(found.V2, V[1]) - found.V1, 0), 0)
 
 
 def stable_at_high_speed(table: Floats) -> NDArray[np.bool_]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import cast
 
 import numpy as np
@@ -33,11 +34,22 @@ def draw_region(volume: Volume) -> Figure:
     mesh = region_mesh(volume.bicycle, box[0], box[1], box[2], model=volume.model, cells=_CELLS, whole=False)
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
-    ends = np.array(box)
+    draw_mesh(ax, mesh, box)
+    figure.legend(handles=legend(mesh), loc="outside lower center", ncols=2, frameon=False)
+    bicycle = volume.bicycle
+    heading = f"{volume.text('title')}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
+    ax.set_title(heading, fontsize=10)
+    return figure
+
+
+def draw_mesh(ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]]) -> None:
+    """The surface in axes that show the box λ [rad] × σ × V [m/s]; words where there is none.
+
+    The axes must have been made with ``computed_zorder=False``.
+    """
     if len(mesh.triangles):
-        _surface(ax, mesh, ends)
-        _rim(ax, mesh, ends)
-        _legend(figure, mesh, ends)
+        _surface(ax, mesh, np.array(box))
+        _rim(ax, mesh)
     else:
         ax.text2D(0.5, 0.5, "no stable motion in this box", transform=ax.transAxes, ha="center")
     ax.set(
@@ -48,10 +60,6 @@ def draw_region(volume: Volume) -> Figure:
         axis.set_major_locator(MaxNLocator(6))
     ax.view_init(elev=25, azim=-125)
     ax.set_box_aspect(_SCALE, zoom=0.95)
-    bicycle = volume.bicycle
-    heading = f"{volume.text('title')}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
-    ax.set_title(heading, fontsize=10)
-    return figure
 
 
 def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
@@ -66,7 +74,7 @@ def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
     ax.add_collection3d(Poly3DCollection(corners, facecolors=faces, edgecolors=faces, linewidths=0.25))
 
 
-def _rim(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
+def _rim(ax: Axes3D, mesh: Mesh) -> None:
     """Where V1 and V2 meet, where the two sheets do, and where the surface leaves the box."""
     sides = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
     edges, index, count = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
@@ -79,7 +87,10 @@ def _rim(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
         ax.add_collection3d(Line3DCollection(lines, colors="0.1", linewidths=0.9, linestyles=[style]))
 
 
-def _legend(figure: Figure, mesh: Mesh, ends: Floats) -> None:
+def legend(mesh: Mesh) -> list[Patch | Line2D]:
+    """Legend entries for what of the surface there is."""
+    if not len(mesh.triangles):
+        return []
     handles: list[Patch | Line2D] = [
         Patch(facecolor=colour, label=label) for kind, (colour, label) in SHEETS.items() if kind in mesh.kind
     ]
@@ -87,4 +98,4 @@ def _legend(figure: Figure, mesh: Mesh, ends: Floats) -> None:
     handles.append(
         Line2D([], [], color="0.1", lw=0.9, ls=(0, (1.5, 1)), label="the region goes on beyond the box")
     )
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False)
+    return handles

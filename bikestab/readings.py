@@ -70,7 +70,6 @@ def judged(reading: Reading, size: Size) -> Numbers:
         "shares": inside.shares,
         "shares_wider_box": around.shares,
         "volume": paper.volume(inside),
-        "widest": width["widest"],
         "sigma_from": width["sigma_from"],
         "larger_sigma_widens": width["larger_sigma_widens"],
         "apart": apart,
