@@ -12,11 +12,11 @@ Verdict = Literal["holds", "holds with limits", "does not hold"]
 HOLDS, LIMITS, FAILS = "holds", "holds with limits", "does not hold"
 
 CLAIMS = {
-    1: "Rectilinear motion of an uncontrolled bicycle is stable, for any relation of the physical parameters, "
-    "only on one finite interval V1 < V < V2.",
+    1: "Rectilinear motion of an uncontrolled bicycle is stable, for any relation of the physical "
+    "parameters, only on one finite interval V1 < V < V2.",
     2: "The interval of stable speeds becomes the largest if the tilt λ is reduced while the trail σ is kept "
     "large enough.",
-    3: "The boundaries let the designer of a given bicycle choose λ and σ for the greatest margin of stability.",
+    3: "The boundaries let the designer of a given bicycle choose λ and σ for the greatest stability margin.",
     4: "Viscous damping δ of the steering does not markedly affect the boundaries.",
 }
 THRESHOLDS = {
@@ -27,8 +27,8 @@ THRESHOLDS = {
     "dampers": 10.0,  # kg m²/s: the highest δ tried
 }
 RULES = {
-    1: "holds if no design has an unbounded interval or more than one; with limits if only designs outside the "
-    "paper's box do; else it does not hold",
+    1: "holds if no design has an unbounded interval or more than one; with limits if only designs outside "
+    "the paper's box do; else it does not hold",
     2: "holds if a larger σ widens the interval and, from some σ on, so does a smaller λ down to λ = 0; with "
     "limits if it does so down to an optimum λ > 0 only; else it does not hold",
     3: "holds if there are stable designs, and the widest interval and the fastest decay are found at one of "
@@ -39,7 +39,7 @@ RULES = {
 
 
 def judge_finite(in_box: float, beyond: float) -> Verdict:
-    """Conclusion 1, from the shares of designs with an unbounded interval or several, in and around the box."""
+    """Conclusion 1, from the shares of designs with an unbounded or several intervals, in a box and a wider one."""
     if in_box > 0:
         return "does not hold"
     return "holds with limits" if beyond > 0 else "holds"

@@ -18,6 +18,7 @@ DESIGNS = ((0.20, 0.08), (0.30, 0.10), (0.05, 0.15), (0.12, 0.12))  # (λ, σ), 
 UNSTABLE = (0.10, 0.08)  # without damping
 FOLDS = (0.10, 0.20, 0.30)  # λ [rad] at which the smallest stable σ is followed
 DELTAS = tuple(float(f"{delta:.4g}") for delta in np.logspace(-3, 1, 21))  # kg m²/s
+SHOWN = (0.001, 0.01, 0.1, 1.0, 10.0)  # in the report's tables
 FEW = (0.01, 0.03, 0.1, 1.0, 10.0)
 
 
@@ -51,9 +52,15 @@ def damping(bicycle: Bicycle, n: int, deltas: tuple[float, ...] = DELTAS) -> Num
     marked = _marked(list(deltas), rows)
     return {
         "designs": n * n,
+        "marked": claims.THRESHOLDS["marked"],
+        "bearings": claims.THRESHOLDS["bearings"],
         "verdict_by_measure": {name: claims.judge_damping(delta) for name, delta in marked.items()},
         "deltas": list(deltas),
         "without": {"volume": still.volume, "sigma_min": still.folds},
+        "range": [deltas[0], deltas[-1]],
+        "shown": [delta for delta in SHOWN if delta in deltas],
+        "p0_change": max(row["p0_change"] for row in rows),
+        "unbounded_changed": max(row["unbounded_changed"] for row in rows),
         "folds_at_lam": list(FOLDS),
         "sweep": rows,
         "marked_from": marked,
@@ -89,7 +96,9 @@ class _Region:
     def __init__(self, bicycle: Bicycle, lam: Floats, sigma: Floats) -> None:
         self.table = characteristic_table(bicycle, lam, sigma)
         found = stable_intervals(self.table)
-        self.volume = float(paper.widths(found).sum(axis=-1).mean()) * (LAM[1] - LAM[0]) * (SIGMA[1] - SIGMA[0])
+        self.volume = (
+            float(paper.widths(found).sum(axis=-1).mean()) * (LAM[1] - LAM[0]) * (SIGMA[1] - SIGMA[0])
+        )
         self.weave, self.V1 = found.lower[..., 0] == WEAVE, found.V1[..., 0]
         self.unbounded = np.isinf(found.V2).any(axis=-1)
         folds = sigma_min(bicycle, FOLDS, high=SIGMA[1]).tolist()

@@ -26,7 +26,9 @@ SIGMAS = (0.06, 0.08, 0.10, 0.11, 0.12, 0.13, 0.14, 0.15)
 LAMS = (0.05, 0.10, 0.15, 0.20, 0.25, 0.30)
 TWO = (0.04834835, 0.15)  # a design with two intervals
 JUDGED: dict[str, paper.Range | None] = {
-    "at each design's best speed": None, "at 5 m/s": (5.0, 5.0), "at the worst of 4 ... 6 m/s": (4.0, 6.0)
+    "at each design's best speed": None,
+    "at 5 m/s": (5.0, 5.0),
+    "at the worst of 4 … 6 m/s": (4.0, 6.0),
 }
 _TIE = 1e-9  # m/s: widths closer than that are equal
 
@@ -58,10 +60,11 @@ def eigenvalues(bicycle: Bicycle, lam: float, sigma: float, speed: float) -> lis
 
 def finite_interval(bicycle: Bicycle, found: Map, size: Size) -> Numbers:
     """Conclusion 1: how many designs have bounded, unbounded, several or no intervals; counterexamples."""
-    wide = {"lam": (LAM[0], WIDER * LAM[1]), "sigma": (SIGMA[0], WIDER * SIGMA[1])}
-    box, wider = (paper.exact_shares(bicycle, size.lines, **kw) for kw in ({}, wide))
+    wide: Numbers = {"lam": (LAM[0], WIDER * LAM[1]), "sigma": (SIGMA[0], WIDER * SIGMA[1])}
+    box = paper.exact_shares(bicycle, size.lines)
+    wider = paper.exact_shares(bicycle, size.lines, **wide)
     coarser = paper.exact_shares(bicycle, size.lines // 2)
-    examples = [
+    examples: list[Numbers] = [
         {
             "lam": lam, "sigma": sigma, "intervals": intervals(bicycle, lam, sigma),
             "eigenvalues": {f"{speed:g}": eigenvalues(bicycle, lam, sigma, speed) for speed in FAR},
@@ -70,6 +73,7 @@ def finite_interval(bicycle: Bicycle, found: Map, size: Size) -> Numbers:
     ]  # fmt: skip
     for example in examples:
         slowest = [example["eigenvalues"][f"{speed:g}"][0][0] for speed in FAR]
+        example["speeds"] = list(FAR)
         example["stable_far_up"] = all(rate < 0 for rate in slowest)
         example["time_constants"] = [-1 / rate if rate < 0 else None for rate in slowest]  # s
     return {
@@ -77,7 +81,8 @@ def finite_interval(bicycle: Bicycle, found: Map, size: Size) -> Numbers:
         "shares_wider_box": wider,
         "wider_box": {name: list(ends) for name, ends in wide.items()},
         "shares_uncertainty": max(abs(box[name] - coarser[name]) for name in box),
-        "unbounded_of_stable": box["unbounded"] / (1 - box["none"]) if box["none"] < 1 else None,
+        "unbounded_of_stable": box["unbounded"] / box["some"] if box["some"] else None,
+        "bounded_of_stable": box["finite"] / box["some"] if box["some"] else None,
         "grid": {"designs": found.number.size, **found.shares},
         "formula_disagreements": int(np.count_nonzero(found.formula != found.unbounded)),
         "curves_at_infinity": _curves_at_infinity(bicycle, size),
@@ -104,7 +109,7 @@ def _curves_at_infinity(bicycle: Bicycle, size: Size) -> list[Numbers]:
 
 
 def on_random_machines(size: Size) -> Numbers:
-    """How many random machines that could be built have an unbounded interval somewhere in the paper's box."""
+    """How many random machines that could be built have an unbounded interval in the paper's box."""
     maps = [paper.designs(machine, size.grid_machines) for machine in random_machines(size.machines)]
     stable, unbounded, several = (
         np.array([values.mean() for values in found])
@@ -131,7 +136,7 @@ def widening(found: Map) -> Numbers:
     W = found.widest
     larger_sigma, smaller_lam = (_share_widened(a, b) for a, b in ((W[:, :-1], W[:, 1:]), (W[1:], W[:-1])))
     best = len(W) - 1 - np.argmax(W[::-1], axis=0)  # of equally wide ones that with the largest tilt
-    good = [0 < W[k, j] and _falls(W[k:, j]) for j, k in enumerate(best.tolist())]
+    good = [W[k, j] > 0 and _falls(W[k:, j]) for j, k in enumerate(best.tolist())]
     first = next((j for j in range(len(good)) if all(good[j:])), None)
     return {
         "designs": W.size,
@@ -154,7 +159,7 @@ def _falls(values: Floats) -> bool:
 
 
 def widths_along_lines(bicycle: Bicycle, steps: int) -> Numbers:
-    """Where along lines of constant σ, and of constant λ, there are stable speeds, and the widest interval."""
+    """Where along lines of constant σ and of constant λ there are stable speeds, and the widest interval."""
     wanted = Wanted(bicycle, LAM, SIGMA, V_max=V[1])
     rows: dict[str, list[Numbers]] = {"sigma": [], "lam": []}
     for sigma, ranges in zip(SIGMAS, stable_ranges(bicycle, *LAM, sigma=SIGMAS), strict=True):
@@ -216,6 +221,4 @@ def margin_on_grid(bicycle: Bicycle, n: int) -> float | None:
 
 
 def _apart(a: Numbers, b: Numbers) -> float:
-    return max(
-        abs(a[name] - b[name]) / (end[1] - end[0]) for name, end in (("lam", LAM), ("sigma", SIGMA))
-    )
+    return max(abs(a[name] - b[name]) / (end[1] - end[0]) for name, end in (("lam", LAM), ("sigma", SIGMA)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,18 +32,19 @@ class Size(NamedTuple):
     search: int = 161  # what the search for the best designs starts from
     picture: int = 401
     cells: int = 48  # of the mesh drawn in three dimensions
+    every: int = 1  # reading of the printed values
 
 
 FULL = Size()
-QUICK = Size(200, 60, 24, 30, 60, 11, 41, 121, 20)
+QUICK = Size(200, 60, 24, 30, 60, 11, 31, 121, 20, 3)
 
 
 class Map(NamedTuple):
     """Stable speeds of n × n designs, at the middles of equal cells of a box.
 
     ``lam`` (n, 1) [rad] and ``sigma`` (n,); (n, n): ``number`` of stable intervals, whether one is
-    ``unbounded``, whether the ``formula`` says so, the ``total`` width [m/s] up to the paper's highest speed, and the width of the
-    ``widest`` interval without any cap.
+    ``unbounded``, whether the ``formula`` says so, the ``total`` width [m/s] up to the
+    paper's highest speed, and the width of the ``widest`` interval without any cap.
     """
 
     lam: Floats
@@ -56,10 +57,9 @@ class Map(NamedTuple):
 
     @property
     def shares(self) -> dict[str, float]:
-        """The shares of designs with no stable speed, only bounded ones, an unbounded and several intervals."""
-        some = self.number > 0
-        kinds = {"none": ~some, "finite": some & ~self.unbounded, "unbounded": self.unbounded}
-        return {name: float(is_.mean()) for name, is_ in (kinds | {"multiple": self.number > 1}).items()}
+        """The shares of designs with no stable speed, some, bounded ones only, an unbounded and several."""
+        kinds = _kinds(self.number, self.unbounded)
+        return {name: float(is_.mean()) for name, is_ in kinds.items()}
 
 
 def middles(ends: Range, n: int) -> Floats:
@@ -73,11 +73,13 @@ def designs(
     """The map of n × n designs of a box."""
     x, y = middles(lam, n)[:, np.newaxis], middles(sigma, n)
     rows = max(_ROWS // n, 1)
-    parts = [_judged(characteristic_table(bicycle, x[i : i + rows], y, model=model)) for i in range(0, n, rows)]
+    parts = [
+        _judged(characteristic_table(bicycle, x[i : i + rows], y, model=model)) for i in range(0, n, rows)
+    ]
     return Map(x, y, *(np.concatenate(values) for values in zip(*parts, strict=True)))
 
 
-def _judged(table: Floats) -> tuple[NDArray, ...]:
+def _judged(table: Floats) -> tuple[Any, ...]:
     found = stable_intervals(table)
     widest = np.where(found.upper > 0, found.V2 - found.V1, 0).max(axis=-1)
     unbounded = np.isinf(found.V2).any(axis=-1)
@@ -112,9 +114,14 @@ def exact_shares(
     cuts = crossings(line, *lam)
     found = stable_intervals(line.table(0.5 * (cuts[:, 1:] + cuts[:, :-1])))
     length = np.diff(cuts, axis=1) / (lam[1] - lam[0])
-    unbounded, some = np.isinf(found.V2).any(axis=-1), found.number > 0
-    kinds = {"none": ~some, "finite": some & ~unbounded, "unbounded": unbounded, "multiple": found.number > 1}
+    kinds = _kinds(found.number, np.asarray(np.isinf(found.V2).any(axis=-1)))
     return {name: float((is_ * length).sum(axis=1).mean()) for name, is_ in kinds.items()}
+
+
+def _kinds(number: NDArray[np.intp], unbounded: NDArray[np.bool_]) -> dict[str, NDArray[np.bool_]]:
+    some = number > 0
+    kinds = {"none": ~some, "some": some, "finite": some & ~unbounded, "unbounded": unbounded}
+    return kinds | {"multiple": number > 1}
 
 
 def unbounded_ranges(
@@ -124,7 +131,7 @@ def unbounded_ranges(
     line = Line(bicycle, model, None, [sigma])
     cuts = crossings(line, *lam)[0]
     found = stable_intervals(line.table(0.5 * (cuts[1:] + cuts[:-1])[np.newaxis]))
-    has = np.isinf(found.V2).any(axis=-1)[0] & (np.diff(cuts) > 0)
+    has = np.asarray(np.isinf(found.V2).any(axis=-1))[0] & (np.diff(cuts) > 0)
     ranges: list[Range] = []
     for i in np.flatnonzero(has):
         start, stop = float(cuts[i]), float(cuts[i + 1])

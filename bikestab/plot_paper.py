@@ -58,11 +58,15 @@ def draw_sections(bicycle: Bicycle, samples: int) -> Figure:
             Line2D([], [], color=colour, lw=2, label=f"{SYMBOLS[fixed]} = {value:.2f}{_unit(fixed)}")
             for value, colour in zip(values, colours, strict=True)
         ]
-        ax.legend(handles=handles, loc="upper left", frameon=True, framealpha=0.9, fontsize=9)
+        ax.legend(handles=handles, loc="upper left" if fixed == "lam" else "upper right", fontsize=9)
     handles = [Line2D([], [], color="0.2", lw=1.7, ls=ls, label=name) for name, ls in EDGES.values()]
-    handles += [Line2D([], [], color="0.2", lw=0.9, ls="", marker=r"$/\!/\!/$", ms=14, label="stable side")]
+    handles.append(
+        Line2D([], [], color="0.2", lw=0.9, path_effects=[TickedStroke(**_TICKS)], label="ticks: stable side")
+    )
     figure.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False, handlelength=3)
-    figure.suptitle(f"{bicycle.name}: boundaries of the stability region (figure 3 of the paper)", fontsize=11)
+    figure.suptitle(
+        f"{bicycle.name}: boundaries of the stability region (figure 3 of the paper)", fontsize=11
+    )
     return figure
 
 
@@ -72,8 +76,9 @@ def draw_space(bicycle: Bicycle, mesh: Mesh) -> Figure:
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     draw_mesh(ax, mesh, list(ENDS.values()))
     start, tip = np.array(ARROW)
-    ax.quiver(*start, *(tip - start), color="black", lw=2.2, arrow_length_ratio=0.16, zorder=9)
-    ax.text(*start, "stable ", ha="right", va="bottom", zorder=9, path_effects=HALO)
+    ax.plot(*np.stack([start, tip], axis=-1), color="black", lw=2.2, zorder=9)
+    ax.plot(*tip[:, np.newaxis], color="black", marker="v", ms=9, zorder=9)  # the arrow is vertical
+    ax.text(*start, "stable", ha="center", va="bottom", zorder=9, path_effects=HALO)
     figure.legend(handles=legend(mesh), loc="outside lower center", ncols=2, frameon=False)
     ax.set_title(f"{bicycle.name}: the stability region (figure 3 of the paper)", fontsize=10)
     return figure

@@ -31,7 +31,7 @@ def readings(bicycle: Bicycle) -> list[Reading]:
     """A and B exchanged or not on either part, A2, C1 = C2; then D1 and D2, of the printed values."""
     found = []
     for rear, front, A2, C in product((False, True), (False, True), FRONT_A, reversed(SPINS)):
-        values = {"A1": bicycle.A1, "B1": bicycle.B1, "A2": A2, "B2": bicycle.B2, "C1": C, "C2": C}
+        values: Numbers = {"A1": bicycle.A1, "B1": bicycle.B1, "A2": A2, "B2": bicycle.B2, "C1": C, "C2": C}
         words = []
         if rear:
             values["A1"], values["B1"] = values["B1"], values["A1"]
@@ -46,7 +46,8 @@ def readings(bicycle: Bicycle) -> list[Reading]:
         most = math.sqrt(getattr(bicycle, "A" + i) * getattr(bicycle, "B" + i))
         for sign in (1, -1):
             D = sign * PRODUCTS * most
-            found.append(Reading(f"D{i} = {D:+.3g}", replace(bicycle, **{"D" + i: D}), False))
+            value: Numbers = {f"D{i}": D}
+            found.append(Reading(f"D{i} = {D:+.3g}", replace(bicycle, **value), False))
     return found
 
 
@@ -88,7 +89,7 @@ def judged(reading: Reading, size: Size) -> Numbers:
 
 def sensitivity(bicycle: Bicycle, size: Size) -> Numbers:
     """Every reading, and for each conclusion how many readings give which verdict."""
-    rows = [judged(reading, size) for reading in readings(bicycle)]
+    rows = [judged(reading, size) for reading in readings(bicycle)[:: size.every]]
     counts = {
         number: {
             verdict: sum(row["verdicts"][number] == verdict for row in rows)
@@ -97,7 +98,10 @@ def sensitivity(bicycle: Bicycle, size: Size) -> Numbers:
         for number in ("1", "2", "3", "4")
     }
     rigid = [row for row in rows if row["rigid"]]
+    marked = [row["marked_from"] for row in rows if row["marked_from"] is not None]
     return {
+        "products": PRODUCTS,
+        "marked_from": [min(marked), max(marked)] if marked else [None, None],
         "readings": rows,
         "number": len(rows),
         "rigid": len(rigid),

@@ -29,18 +29,25 @@ def refinement(bicycle: Bicycle, found: Map, size: Size) -> Numbers:
         if not np.array_equal(tables["refined"][k, j], tables["unrefined"][k, j])
     ]
     a, b = (coefficients(bicycle, x, y, model=model) for model in MODELS)
-    letters = [name for name in a._fields if not np.array_equal(getattr(a, name).value, getattr(b, name).value)]
+    letters = [
+        name for name in a._fields if not np.array_equal(getattr(a, name).value, getattr(b, name).value)
+    ]
     maps = {"refined": found, "unrefined": paper.designs(bicycle, size.grid, model="unrefined")}
     coarser = paper.designs(bicycle, n)
+    whole = float(np.prod([end[1] - end[0] for end in (LAM, SIGMA, paper.V)]))
     return {
         "changed_coefficients": letters,
         "changed_terms": changed,
         "volume_uncertainty": abs(paper.volume(found) - paper.volume(coarser)),
-        "volume_of_box": float(np.prod([end[1] - end[0] for end in (LAM, SIGMA, paper.V)])),
+        "volume_of_box": whole,
         "designs": found.number.size,
         "designs_for_terms": n * n,
         "models": {
-            model: {"volume": paper.volume(maps[model]), "shares": maps[model].shares}
+            model: {
+                "volume": paper.volume(maps[model]),
+                "volume_share": paper.volume(maps[model]) / whole,
+                "shares": maps[model].shares,
+            }
             | _why(bicycle, tables[model], model, x, y)
             | _beyond(bicycle, model, size)
             for model in MODELS
@@ -62,7 +69,7 @@ def _why(bicycle: Bicycle, table: Any, model: Model, x: Any, y: Any) -> Numbers:
         "capsize_highest": float(capsize[falling].max()) if falling.any() else None,
         "p1_lowest": float(low.min()),
         "capsize_over_p1": float((capsize[falling] / low[falling]).max()) if falling.any() else None,
-        "p0_rising_or_above_p1": float(((p0[2] > 0) | (falling & (capsize > low))).mean()),
+        "p0_and_p1": float(((p0[2] > 0) | (falling & (capsize > low))).mean()),
     }
 
 

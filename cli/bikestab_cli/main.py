@@ -11,7 +11,9 @@ import click
 from bikestab import __version__
 from bikestab.errors import BikestabError, InputError, nearest
 
-COMMANDS = ("scan", "vrange", "eigen", "design", "slice", "check", "info", "bicycles", "init", "schema")
+COMMANDS = (
+    "scan", "vrange", "eigen", "design", "slice", "check", "info", "bicycles", "init", "schema", "reproduce",
+)  # fmt: skip
 
 
 class _Lazy(click.Group):
