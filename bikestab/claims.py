@@ -39,7 +39,7 @@ RULES = {
 
 
 def judge_finite(in_box: float, beyond: float) -> Verdict:
-    """Conclusion 1, from the shares of designs with an unbounded or several intervals, in a box and a wider one."""
+    """Conclusion 1, from the shares of designs with an unbounded interval or with several, in two boxes."""
     if in_box > 0:
         return "does not hold"
     return "holds with limits" if beyond > 0 else "holds"

@@ -22,10 +22,10 @@ _MODELS = {  # row of the table that compares them: key and format
     "designs with a stable speed, in a box twice as long and wide": ("stable_in_wider_box", "3p"),
 }
 _KEYS = {
-    "1": "no upper limit for {shares[unbounded]:3p} of the designs, {unbounded_of_stable:3p} of the stable ones",
-    "2": "right from σ = {sigma_from:.3f} on, down to an optimum λ; nothing is stable below {limits[lam_min]:.4f} rad",
-    "3": "the widest interval is at λ = {optima[0][lam]:.3f} rad, the fastest decay at {optima[1][lam]:.3f} rad",
-    "4": "V2 never moves, but the region does, markedly from δ = {judged_by[marked_from]:.3f} kg m²/s on",
+    "1": "no upper limit for {shares[unbounded]:3p} of the designs, {unbounded_of_stable:3p} of the stable",
+    "2": "right from σ = {sigma_from:.3f} on, to an optimum λ; no stability below {limits[lam_min]:.4f} rad",
+    "3": "widest interval at λ = {optima[0][lam]:.3f} rad, fastest decay at {optima[1][lam]:.3f} rad",
+    "4": "V2 never moves, the region does, markedly from δ = {judged_by[marked_from]:.3f} kg m²/s on",
 }
 _SHARES = {
     "no stable speed": "none", "bounded intervals only": "finite", "an unbounded interval": "unbounded",
