@@ -34,7 +34,7 @@ _VANISHING = 0.01  # m/s: an optimum at the rim whose interval is narrower has a
 _BESIDE = 1e-4  # share of the box's sides at which the neighbours of an optimum are looked at
 _JUMP = 1e-3  # share of its value by which an optimum at a jump is better than a close neighbour
 _TOUCH = 1e-3  # m/s
-_SAME = 1e-7  # designs of the front whose λ and σ differ less are one
+_SAME = 1e-4  # m/s, 1/s: designs of the front that differ less are one, found twice
 
 Criterion = Callable[[Wanted, Floats], Floats]
 Pick = Literal["widest", "lowest", "judged"]
@@ -78,9 +78,9 @@ class Best(NamedTuple):
     closest: Design | None
 
 
-def best_designs(wanted: Wanted) -> Best:
-    """Search the box, starting from GRID × GRID designs; the same question has the same answer."""
-    search = _Search(wanted)
+def best_designs(wanted: Wanted, *, grid: int | None = None) -> Best:
+    """Search the box, starting from grid × grid designs; the same question has the same answer."""
+    search = _Search(wanted, grid or GRID)
     own = _own(wanted)
     nearest = search.best(miss) if search.on_grid(width).min() >= 0 else None
     if nearest and nearest.value > 0:
@@ -91,6 +91,9 @@ def best_designs(wanted: Wanted) -> Best:
     if nearest:  # a region that the grid missed
         search.known.append(nearest.x)
     widest, low, fast = (search.best(criterion) for criterion in (width, lowest, decay))
+    as_widest = float(decay(wanted, widest.x[:, np.newaxis])[0])
+    if as_widest < fast.value:  # both searches end at the same optimum, save for their last steps
+        fast = Found(widest.x, as_widest)
     return Best(
         own,
         _design(wanted, widest.x, "widest", _place(wanted, width, widest)),
@@ -104,10 +107,10 @@ def best_designs(wanted: Wanted) -> Best:
 class _Search:
     """The grid of a box, and searches that start from it."""
 
-    def __init__(self, wanted: Wanted) -> None:
+    def __init__(self, wanted: Wanted, grid: int) -> None:
         self.wanted = wanted
         self.low, self.high = wanted.box
-        lam, sigma = axes(self.low, self.high, GRID)
+        lam, sigma = axes(self.low, self.high, grid)
         self.shape = len(lam), len(sigma)
         self.x = np.stack(np.meshgrid(lam, sigma, indexing="ij")).reshape(2, -1)
         self.step = (self.high - self.low) / np.maximum(np.array(self.shape) - 1, 1)
@@ -164,8 +167,12 @@ def _front(search: _Search, widest: Found, fastest: Found) -> list[Found]:
     better = (wide >= wide[:, np.newaxis]) & (growth <= growth[:, np.newaxis])
     better &= (wide > wide[:, np.newaxis]) | (growth < growth[:, np.newaxis])
     front = [i for i in np.lexsort((growth, -wide)) if not better[i].any()]
-    apart = [k == 0 or np.abs(x[:, i] - x[:, front[k - 1]]).max() > _SAME for k, i in enumerate(front)]
-    return [Found(x[:, i], float(-wide[i])) for i, new in zip(front, apart, strict=True) if new]
+    apart: list[int] = []
+    for i in front:
+        last = apart[-1] if apart else None
+        if last is None or max(abs(wide[i] - wide[last]), abs(growth[i] - growth[last])) > _SAME:
+            apart.append(i)
+    return [Found(x[:, i], float(-wide[i])) for i in apart]
 
 
 def _own(wanted: Wanted) -> Design | None:

@@ -50,10 +50,14 @@ class Mesh(NamedTuple):
 
     def open_edges(self, box: Box) -> Index:
         """Edges (edge, 2) of one triangle only that are not in a face of the box, or of more than two."""
+        return self.open_within(np.vstack([box.ends, box.V]))
+
+    def open_within(self, ends: Floats) -> Index:
+        """The same for a box with these ends (3, 2) of λ, σ and V."""
         sides = np.sort(self.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
         edges, count = np.unique(sides, axis=0, return_counts=True)
         a, b = self.points[edges].swapaxes(0, 1)
-        on_face = [(a == face) & (b == face) for face in np.vstack([box.ends, box.V]).T]
+        on_face = [(a == face) & (b == face) for face in ends.T]
         return edges[(count > 2) | ((count == 1) & ~np.any(on_face, axis=(0, 2)))]
 
 

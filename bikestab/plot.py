@@ -151,7 +151,7 @@ def _stable_region(figure: Figure, ax: Axes, section: Section, x: Floats, y: Flo
         dots.set_linewidth(0)
         handles.append(Patch(facecolor=GROWTH(0.3), hatch="..", edgecolor="0.25", lw=0, label="stable"))
     for name, (label, style) in EDGES.items():
-        curves = _curves(section, name, X, Y)
+        curves = edge_curves(section, name, X, Y)
         for curve in curves:
             ax.plot(*curve, color="white", lw=4, solid_capstyle="round", alpha=0.8)
         for curve in curves:
@@ -167,8 +167,23 @@ def _stable_region(figure: Figure, ax: Axes, section: Section, x: Floats, y: Flo
         figure.legend(handles=handles, loc="outside lower center", ncols=3, handlelength=3, frameon=False)
 
 
-def _curves(section: Section, name: str, X: Floats, Y: Floats) -> list[tuple[Floats, Floats]]:
-    """The parts of the curve on which a condition is zero that are edges of stability."""
+def edge_curves(section: Section, name: str, X: Floats, Y: Floats) -> list[tuple[Floats, Floats]]:
+    """The parts (x, y) of the curve on which a condition is zero that are edges of stability.
+
+    X and Y are the samples (n,) among which curves are looked for; the points are exact.
+    """
+    parts: list[tuple[Floats, Floats]] = []
+    for x, y in zero_curves(section, name, X, Y):
+        others = conditions(*section.table_and_speed(x, y))._asdict()
+        edge = np.all([v > 0 for key, v in others.items() if key != name], axis=0)
+        cuts = np.flatnonzero(np.diff(edge)) + 1
+        stretches = np.split(np.arange(len(x)), cuts)
+        parts.extend((x[part], y[part]) for part in stretches if edge[part[0]] and len(part) > 1)
+    return parts
+
+
+def zero_curves(section: Section, name: str, X: Floats, Y: Floats) -> list[tuple[Floats, Floats]]:
+    """The whole curves (x, y) on which a condition is zero, edges or not."""
 
     def value(x: Floats, y: Floats) -> Floats:
         table, V = section.table_and_speed(x, y)
@@ -184,15 +199,7 @@ def _curves(section: Section, name: str, X: Floats, Y: Floats) -> list[tuple[Flo
     samples = value(X[np.newaxis, :], Y[:, np.newaxis])
     lines = cast("list[Floats]", contour_generator(X, Y, samples).lines(0.0))
     steps = (X[1] - X[0], Y[1] - Y[0])
-    parts: list[tuple[Floats, Floats]] = []
-    for line in lines:
-        x, y = _onto_zero(value, line[:, 0], line[:, 1], steps)
-        others = conditions(*section.table_and_speed(x, y))._asdict()
-        edge = np.all([v > 0 for key, v in others.items() if key != name], axis=0)
-        cuts = np.flatnonzero(np.diff(edge)) + 1
-        stretches = np.split(np.arange(len(x)), cuts)
-        parts.extend((x[part], y[part]) for part in stretches if edge[part[0]] and len(part) > 1)
-    return parts
+    return [_onto_zero(value, line[:, 0], line[:, 1], steps) for line in lines]
 
 
 def _onto_zero(value: Any, x: Floats, y: Floats, steps: tuple[float, float]) -> tuple[Floats, Floats]:

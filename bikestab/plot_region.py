@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import cast
 
 import numpy as np
@@ -14,7 +15,6 @@ from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from bikestab.config import AXES
-from bikestab.events import Box
 from bikestab.mesh import Mesh, region_mesh
 from bikestab.model import Floats
 from bikestab.plot_axes import LABELS, remarks
@@ -34,11 +34,23 @@ def draw_region(volume: Volume) -> Figure:
     mesh = region_mesh(volume.bicycle, box[0], box[1], box[2], model=volume.model, cells=_CELLS, whole=False)
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
-    ends = np.array(box)
+    if handles := draw_mesh(ax, mesh, box):
+        figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False)
+    bicycle = volume.bicycle
+    heading = f"{volume.text('title')}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
+    ax.set_title(heading, fontsize=10)
+    return figure
+
+
+def draw_mesh(ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]]) -> list[Patch | Line2D]:
+    """The surface in axes that show the box λ [rad] × σ × V [m/s]; words where there is none.
+
+    Returns what the legend has to say. The axes must have been made with ``computed_zorder=False``.
+    """
+    handles: list[Patch | Line2D] = []
     if len(mesh.triangles):
-        _surface(ax, mesh, ends)
-        lines = _rim(ax, mesh, Box(volume.bicycle, volume.model, ends[:2], box[2]))
-        _legend(figure, mesh, lines)
+        _surface(ax, mesh, np.array(box))
+        handles = _legend(mesh, _rim(ax, mesh, np.array(box)))
     else:
         ax.text2D(0.5, 0.5, "no stable motion in this box", transform=ax.transAxes, ha="center")
     ax.set(
@@ -49,10 +61,7 @@ def draw_region(volume: Volume) -> Figure:
         axis.set_major_locator(MaxNLocator(6))
     ax.view_init(elev=25, azim=-125)
     ax.set_box_aspect(_SCALE, zoom=0.95)
-    bicycle = volume.bicycle
-    heading = f"{volume.text('title')}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
-    ax.set_title(heading, fontsize=10)
-    return figure
+    return handles
 
 
 def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
@@ -67,7 +76,7 @@ def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
     ax.add_collection3d(Poly3DCollection(corners, facecolors=faces, edgecolors=faces, linewidths=0.25))
 
 
-def _rim(ax: Axes3D, mesh: Mesh, box: Box) -> list[Line2D]:
+def _rim(ax: Axes3D, mesh: Mesh, ends: Floats) -> list[Line2D]:
     """Where sheets meet, where the surface leaves the box, and where it is open; and what says so."""
     sides = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
     edges, index, count = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
@@ -75,7 +84,7 @@ def _rim(ax: Axes3D, mesh: Mesh, box: Box) -> list[Line2D]:
     low, high = np.full(len(edges), 99), np.zeros(len(edges), int)
     np.minimum.at(low, index.ravel(), sheet)
     np.maximum.at(high, index.ravel(), sheet)
-    torn = mesh.open_edges(box)
+    torn = mesh.open_within(ends)
     faces = {(int(a), int(b)) for a, b in edges[count == 1]} - {(int(a), int(b)) for a, b in torn}
     handles = []
     for lines, style, label in (
@@ -90,8 +99,8 @@ def _rim(ax: Axes3D, mesh: Mesh, box: Box) -> list[Line2D]:
     return handles
 
 
-def _legend(figure: Figure, mesh: Mesh, lines: list[Line2D]) -> None:
+def _legend(mesh: Mesh, lines: list[Line2D]) -> list[Patch | Line2D]:
     patches = [
         Patch(facecolor=colour, label=label) for kind, (colour, label) in SHEETS.items() if kind in mesh.kind
     ]
-    figure.legend(handles=[*patches, *lines], loc="outside lower center", ncols=2, frameon=False)
+    return [*patches, *lines]

@@ -12,18 +12,9 @@ from bikestab import __version__
 from bikestab.errors import BikestabError, InputError, nearest
 
 COMMANDS = (
-    "scan",
-    "vrange",
-    "eigen",
-    "design",
-    "slice",
-    "export",
-    "check",
-    "info",
-    "bicycles",
-    "init",
+    "scan", "vrange", "eigen", "design", "slice", "export", "reproduce", "check", "info", "bicycles", "init",
     "schema",
-)
+)  # fmt: skip
 
 
 class _Lazy(click.Group):
