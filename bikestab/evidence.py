@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from bikestab import criteria, paper
 from bikestab.bicycle import Bicycle
 from bikestab.criteria import Wanted
 from bikestab.curves import trace
-from bikestab.design import best_designs
+from bikestab.design import Best, best_designs
 from bikestab.machines import random_machines
 from bikestab.model import Floats, canonical_matrices, characteristic_table
 from bikestab.paper import LAM, SIGMA, WIDER, Map, Size, V
@@ -194,12 +195,18 @@ def smallest_tilt(bicycle: Bicycle) -> Numbers:
     return {"lam_min": None if math.isnan(lam) else lam, "sigma_min": None if math.isnan(sigma) else sigma}
 
 
+@cache
+def searched(wanted: Wanted, grid: int) -> Best:
+    """The best designs; the same ones are tabled and drawn."""
+    return best_designs(wanted, grid=grid)
+
+
 def margin(bicycle: Bicycle, size: Size) -> Numbers:
     """Conclusion 3: the best designs by width and by decay, each searched for in the paper's box."""
     box = Wanted(bicycle, LAM, SIGMA, V_max=V[1])
     found: list[Numbers] = []
     for words, speeds in JUDGED.items():
-        best = best_designs(replace(box, judged=speeds), grid=size.search)
+        best = searched(replace(box, judged=speeds), size.search)
         if not found and best.widest:
             found.append({"criterion": "widest interval", **best.widest})
         if best.fastest_decay:

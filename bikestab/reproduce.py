@@ -13,7 +13,6 @@ from bikestab import __version__, claims, damping, evidence, paper
 from bikestab.bicycle import Bicycle
 from bikestab.criteria import Wanted
 from bikestab.curves import trace
-from bikestab.design import best_designs
 from bikestab.errors import InputError, ScanError
 from bikestab.mesh import region_mesh
 from bikestab.model import MODELS
@@ -135,7 +134,7 @@ def _figures(data: Numbers, size: Size) -> Any:
 
 def _designs(bicycle: Bicycle, size: Size) -> Any:
     wanted = Wanted(bicycle, LAM, SIGMA, V_max=V[1])
-    best = best_designs(wanted, grid=size.search)
+    best = evidence.searched(wanted, size.search)
     return draw_designs(wanted, best, trace(bicycle, LAM, SIGMA, samples=size.picture))
 
 

@@ -2,8 +2,6 @@
 
 from functools import cache
 
-import pytest
-
 from bikestab import readings, reproduce
 from bikestab.bicycle import Bicycle
 from bikestab.paper import Size
@@ -23,8 +21,3 @@ def study():
 @cache
 def all_readings():
     return {r.words: r for r in readings.readings(Bicycle.preset(reproduce.BICYCLE))}
-
-
-@pytest.fixture(scope="session")
-def data():
-    return study()

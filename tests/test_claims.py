@@ -211,7 +211,7 @@ def test_damping(bicycle):
 
 
 def test_fold_moves_with_damping(bicycle):
-    """The smallest stable σ at λ = 0.3 falls by 12.6 % at δ = 0.1: stable between the two values only then."""
+    """The smallest stable σ at λ = 0.3 falls by 12.6 % at δ = 0.1; what is between is stable only then."""
     row = next(row for row in numbers(4)["sweep"] if row["delta"] == 0.1)
     assert row["sigma_min_change"][2] == pytest.approx(-0.1258, abs=1e-3)
     speeds = np.linspace(2, 5, 3001)

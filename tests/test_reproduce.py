@@ -22,7 +22,8 @@ from tests.small import TINY, study
 
 # what is no number of the study: formulas, names such as V1 or C2°, references and years, links, units
 NOT_NUMBERS = [
-    r"(?m)^    .*$", r"\]\([^)]*\)", r"\(1981\)", r"\((?:1\.2|2\.2)\)", r"\bfigure 3\b", r"## Figure 3",
+    r"(?m)^    .*$", r"\]\([^)]*\)",
+    r"\((?:1981|2007)\)", r"\((?:1\.2|1\.4|2\.2)\)", r"\bfigure 3\b", r"## Figure 3",
     r"1/s\b", r"1/V", r"rad m/s", r"(?:Conclusion|conclusion) [1-4]", r"[pVcAabBCDRmlhαΔ]_?\d°?(?:/c)?",
 ]  # fmt: skip
 NUMBER = re.compile(r"(?<![\w.^])[−-]?\d+(?:\.\d+)?(?:e[−-]?\d+)?")
