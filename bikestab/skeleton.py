@@ -158,7 +158,9 @@ def crossings(line: Line, low: float, high: float) -> Floats:
     lines = len(line.fixed)
     values = np.array(_along(line, np.broadcast_to(nodes, (lines, *nodes.shape))))
     curve, row, piece, x = _zeros(values)
-    found = _polished(line, curve, row, middle[piece] + half[piece] * x, float(half[0]))
+    rough = middle[piece] + half[piece] * x  # kept as well: of two close zeros both may move to one
+    found = np.concatenate([rough, _polished(line, curve, row, rough, float(half[0]))])
+    row = np.concatenate([row, row])
     order = np.lexsort((found, row))
     row, found = row[order], np.clip(found[order], low, high)
     count = np.bincount(row, minlength=lines)
@@ -210,13 +212,13 @@ def _polished(line: Line, curve: NDArray[np.intp], row: NDArray[np.intp], x: Flo
         return x
     fixed = line.fixed[row]
     lines = line._replace(lam=fixed) if line.sigma is None else line._replace(sigma=fixed)
-    step, each = 1e-6 * half, np.arange(len(x))
-    for _ in range(2):
+    each = np.arange(len(x))
+    for step in np.array([1e-4, 1e-5, 1e-6, 1e-6]) * half:
         around = x[:, np.newaxis] + step * np.array([-1.0, 0.0, 1.0])
         below, here, above = np.array(_along(lines, around))[curve, each].T
         with np.errstate(divide="ignore", invalid="ignore"):
             move = 2 * step * here / (above - below)
-        x = np.where(np.abs(move) < step, x - move, x)
+        x = np.where(np.abs(move) < 10 * step, x - move, x)
     return x
 
 
