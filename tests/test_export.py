@@ -8,7 +8,7 @@ import pytest
 
 from bikestab import tables, yamltext
 from bikestab.bicycle import Bicycle
-from bikestab.config import parse_config
+from bikestab.configfile import parse_config
 from bikestab.curves import Curve, trace
 from bikestab.errors import InputError
 from bikestab.fileformat import file_format

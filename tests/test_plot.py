@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
-from bikestab.config import parse_config
+from bikestab.configfile import parse_config
 from bikestab.errors import InputError
 from bikestab.model import characteristic_table
 from bikestab.plot import draw_slice, save, slice_name

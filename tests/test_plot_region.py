@@ -5,7 +5,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from bikestab.config import load_config
+from bikestab.configfile import load_config
 from bikestab.plot_region import SHEETS, draw_region
 from bikestab.scan import run_scan
 from bikestab.volume import Volume

@@ -11,7 +11,8 @@ import pytest
 
 from bikestab import scan, yamltext
 from bikestab.boundary import AGREEMENT, Agreement
-from bikestab.config import AXES, parse_config
+from bikestab.config import AXES
+from bikestab.configfile import parse_config
 from bikestab.errors import InputError, ScanError
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
@@ -260,7 +261,7 @@ def test_a_volume_that_someone_else_reads_can_be_replaced():
 FAILS_FOR_A_WHILE = """
 import resource, sys
 import h5py
-from bikestab.config import load_config
+from bikestab.configfile import load_config
 from bikestab.errors import ScanError
 from bikestab.scan import run_scan
 

@@ -10,7 +10,8 @@ import pytest
 
 from bikestab import __version__, yamltext
 from bikestab.bicycle import Bicycle
-from bikestab.config import AXES, parse_config
+from bikestab.config import AXES
+from bikestab.configfile import parse_config
 from bikestab.errors import InputError
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated

@@ -27,7 +27,7 @@ def command(configs: tuple[str, ...]) -> None:
     Example:
       bikestab check configs/dikarev1981.yaml configs/meijaard2007.yaml
     """
-    from bikestab.config import load_config
+    from bikestab.configfile import load_config
 
     rows, failed = [], 0
     for name in configs:

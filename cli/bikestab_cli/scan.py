@@ -42,7 +42,7 @@ def command(configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, a
       bikestab scan configs/quick.yaml --set grid.V.num=61 --set output=out/fine
       bikestab scan configs/quick.yaml configs/meijaard2007.yaml --force --json
     """
-    from bikestab.config import load_config
+    from bikestab.configfile import load_config
     from bikestab.errors import InputError
     from bikestab.scan import check_size, run_scan, volume_path
 

@@ -13,7 +13,7 @@ from ruamel.yaml import YAML
 
 from bikestab import __version__, yamltext
 from bikestab.bicycle import Bicycle, preset_text
-from bikestab.config import load_config, parse_config
+from bikestab.configfile import load_config, parse_config
 from bikestab.scan import run_scan
 
 CONFIGS = Path(__file__).parents[2] / "configs"

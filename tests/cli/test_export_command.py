@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from bikestab import yamltext
-from bikestab.config import parse_config
+from bikestab.configfile import parse_config
 from bikestab.scan import run_scan
 
 pyvista = pytest.importorskip("pyvista")

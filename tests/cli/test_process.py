@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from bikestab import yamltext
-from bikestab.config import parse_config
+from bikestab.configfile import parse_config
 from bikestab.scan import run_scan
 
 BIKESTAB = shutil.which("bikestab", path=str(Path(sys.executable).parent)) or shutil.which("bikestab")
