@@ -10,7 +10,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
@@ -57,6 +57,8 @@ class Bicycle:
     name: str = "bicycle"
     source: str = ""
     remarks: tuple[str, ...] = ()  # warnings about the bodies these parameters were reduced from
+    bodies: Mapping[str, float] | None = field(default=None, init=False, repr=False, compare=False)
+    shape: ClassVar[tuple[int, ...]] = ()  # of each parameter, as in samples.Machines
 
     def __post_init__(self) -> None:
         for p in parameters():
@@ -106,9 +108,26 @@ class Bicycle:
         """The parameters by name, as plain numbers."""
         return {p.name: getattr(self, p.name) for p in parameters()}
 
+    @property
+    def notation(self) -> dict[str, str]:
+        """The parameters of the notation the bicycle was given in, with meaning and unit of each."""
+        return PAPER if self.bodies is None else MEIJAARD
+
+    @property
+    def given(self) -> dict[str, float]:
+        """The numbers in that notation."""
+        if self.bodies is not None:
+            return dict(self.bodies)
+        return {name: value for name, value in self.numbers().items() if value is not None}
+
+    def replaced(self, values: Mapping[str, float]) -> Bicycle:
+        """A copy with other values of some parameters in its notation; InputError names the parameter."""
+        kept = {k: v for k, v in self.given.items() if not (k in ("R1", "R2") and "R" in values)}
+        return Bicycle.from_mapping({**kept, **values, "source": self.source}, name=self.name)
+
     def with_delta(self, delta: float | None) -> Bicycle:
         """Return a copy with the damping ``delta``, or the same for None."""
-        return self if delta is None else dataclasses.replace(self, delta=delta)
+        return self if delta is None else self.replaced({"delta": delta})
 
     @classmethod
     def from_mapping(cls, values: Mapping[Any, Any], *, name: str = "bicycle") -> Bicycle:
@@ -138,7 +157,9 @@ class Bicycle:
         }
         if notation is MEIJAARD:
             _require(numbers, [key for key in MEIJAARD if key not in OPTIONAL])
-            return cls(**two_parts(numbers), name=texts["name"], source=texts["source"])
+            bicycle = cls(**two_parts(numbers), name=texts["name"], source=texts["source"])
+            object.__setattr__(bicycle, "bodies", numbers)
+            return bicycle
         return _from_paper(numbers, texts)
 
     @classmethod

@@ -15,6 +15,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.config import AXES, Expectation, Plane, ScanConfig
 from bikestab.errors import InputError, dotted, nearest
 from bikestab.units import shown
+from bikestab.variation import Distribution, Ensemble
 
 
 def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
@@ -82,14 +83,13 @@ def _translated(error: ValidationError) -> InputError:
     errors = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
     first = errors[0]
     key, context, kind = first["loc"], first.get("ctx", {}), first["type"]
-    if key[:1] == ("grid",):
+    tag = key[2] if key[:1] in (("grid",), ("sweep",)) and len(key) > 2 else ""
+    if tag:
         key = key[:2] + key[3:]  # without the tag of the axis' union
     if kind == "bikestab":
         return InputError(context["problem"], key=context["key"] or key, hint=context["hint"])
     if kind == "extra_forbidden":
-        known = _known(key[:-1])
-        if key[0] == "grid" and first["loc"][2:3] in (("range",), ("values",)):
-            known = ["values"] if first["loc"][2] == "values" else known
+        known = ["values"] if tag == "values" else _known(key[:-1])
         return InputError("unknown key", key=key, hint=nearest(str(key[-1]), known))
     if kind == "missing":
         return InputError("missing", key=key, hint=f"needed here: {', '.join(_known(key[:-1]))}")
@@ -105,10 +105,13 @@ def _translated(error: ValidationError) -> InputError:
         "model_attributes_type": "keys with values",
         "dict_type": "keys with values",
         "greater_than_equal": f"at least {context.get('ge')}",
+        "less_than_equal": f"at most {context.get('le')}",
         "too_short": f"a list of at least {context.get('min_length')}",
         "string_too_short": "text that is not empty",
     }.get(kind, first["msg"])
     hint = f"keys here: {', '.join(_known(key))}" if what == "keys with values" else f"allowed: {what}"
+    if kind == "list_type" and tag == "list":
+        hint += " of values, or {start: ..., stop: ..., num: ...}"
     return InputError(f"{shown(first['input'])} is not {what}", key=key, hint=hint)
 
 
@@ -122,6 +125,12 @@ def _known(key: tuple[str | int, ...]) -> list[str]:
         return list(ScanConfig.model_fields)
     if key[0] == "grid":
         return list(AXES) if len(key) == 1 else ["start", "stop", "num", "values"]
+    if key[0] == "sweep":
+        return ["parameters of the bicycle"] if len(key) == 1 else ["start", "stop", "num", "values"]
+    if key == ("ensemble",):
+        return ["parameters of the bicycle", *Ensemble.model_fields]
+    if key[0] == "ensemble":
+        return list(Distribution.model_fields)
     model = Plane if key[0] == "slices" else Expectation
     return list(model.model_fields)
 

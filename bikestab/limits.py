@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from bikestab.errors import InputError
 
@@ -30,16 +31,22 @@ def check_trail(sigma: float, key: tuple[str | int, ...]) -> None:
         )
 
 
-def exceeds(a: float, b: float) -> bool:
-    """Whether a > b by more than rounding."""
+def exceeds(a: Any, b: Any) -> Any:
+    """Whether a > b by more than rounding; of floats or arrays."""
     return a > b * (1 + 1e-9)  # published inertias of thin discs sit exactly on the limit
+
+
+def allowed(value: Any, check: str) -> Any:
+    """Whether a parameter is of the sign wanted and within MOST; of floats or arrays."""
+    within = abs(value) <= MOST
+    return within & (value > 0) if check == "positive" else within & ((value >= 0) | (check == ""))
 
 
 def check_value(key: str, value: float, check: str, meaning: str) -> None:
     """Raise InputError unless a parameter is of the sign wanted and within MOST."""
     if abs(value) > MOST:
         raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: up to {MOST:g}")
-    if (check == "positive" and not value > 0) or (check == "non-negative" and not value >= 0):
+    if not allowed(value, check):
         limit = "> 0" if check == "positive" else ">= 0"
         raise InputError(f"{value:g} is not {check} ({meaning})", key=(key,), hint=f"allowed: {key} {limit}")
 

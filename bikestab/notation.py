@@ -40,28 +40,37 @@ MEIJAARD: dict[str, str] = {
     "IFyy": "front wheel spin inertia [kg m²]",
 }
 OPTIONAL = {"g", "delta", "IByy", "IHyy"}
-_POSITIVE = {"w", "g"}
+CHECKS = {"w": "positive", "g": "positive"} | {
+    key: "non-negative" for key in MEIJAARD if key[0] in "mr" or (key[0] == "I" and not key.endswith("xz"))
+}
+PARTS = (("rear", ("mR", "mB")), ("front", ("mH", "mF")))
 
 
 def two_parts(n: Mapping[str, float]) -> dict[str, Any]:
     """The paper's parameters of the two parts, as Bicycle takes them, from the 25 of four rigid bodies.
 
-    By the parallel-axis theorem. InputError (with the key) for what no bodies can have.
+    InputError (with the key) for what no bodies can have.
     """
     for key, value in n.items():
-        if key in _POSITIVE:
-            check_value(key, value, "positive", MEIJAARD[key])
-        elif key[0] in "mr" or (key[0] == "I" and not key.endswith("xz")):
-            check_value(key, value, "non-negative", MEIJAARD[key])
+        if key in CHECKS:
+            check_value(key, value, CHECKS[key], MEIJAARD[key])
     check_tilt(n["lam"], ("lam",))
     for body in ("B", "H"):
         xz, xx, zz = (f"I{body}{axes}" for axes in ("xz", "xx", "zz"))
         check_product(xz, n[xz], xx, n[xx], zz, n[zz])
-    for part, bodies in (("rear", ("mR", "mB")), ("front", ("mH", "mF"))):
+    for part, bodies in PARTS:
         if sum(n[m] for m in bodies) == 0:
             raise InputError(
                 f"the {part} part has no mass", key=(bodies[1],), hint=f"allowed: {' + '.join(bodies)} > 0"
             )
+    return {**reduced(n), "lam": n["lam"], "sigma": n["c"] / n["w"], "remarks": tuple(_body_remarks(n))}
+
+
+def reduced(n: Mapping[str, Any]) -> dict[str, Any]:
+    """The numbers of the two parts from those of the four bodies, by the parallel-axis theorem.
+
+    Floats, or arrays that broadcast together.
+    """
     # part 1 = rear wheel + body, part 2 = fork + front wheel: (mass, forward, up, Ixx, Izz, Ixz)
     m1, l1, h1, A1, B1, xz1 = _join(
         (n["mR"], 0.0, n["rR"], n["IRxx"], n["IRxx"], 0.0),
@@ -75,7 +84,6 @@ def two_parts(n: Mapping[str, float]) -> dict[str, Any]:
         "c": n["w"], "g": n.get("g", 9.81), "delta": n.get("delta", 0.0),
         "m1": m1, "l1": l1, "h1": h1, "A1": A1, "B1": B1, "D1": xz1, "C1": n["IRyy"], "R1": n["rR"],
         "m2": m2, "l2": l2, "h2": h2, "A2": A2, "B2": B2, "D2": -xz2, "C2": n["IFyy"], "R2": n["rF"],
-        "lam": n["lam"], "sigma": n["c"] / n["w"], "remarks": tuple(_body_remarks(n)),
     }  # fmt: skip
 
 

@@ -359,6 +359,35 @@ def test_with_delta():
     assert bicycle.delta == 2
 
 
+def test_with_delta_keeps_the_notation_and_its_warnings():
+    bodies = {**BENCHMARK, "IRyy": 0.13}
+    damped = Bicycle.from_mapping(bodies).with_delta(0.5)
+    assert damped == Bicycle.from_mapping({**bodies, "delta": 0.5})
+    assert damped.given == {**damped.given, **bodies, "delta": 0.5}
+    assert any("IRyy > 2 IRxx" in warning for warning in damped.warnings)
+
+
+def test_replaced_in_either_notation():
+    bicycle = Bicycle.preset("dikarev1981")
+    assert bicycle.notation["m1"] == "mass of the rear part with rider [kg]"
+    assert bicycle.replaced({"m1": 70}) == dataclasses.replace(bicycle, m1=70)
+    assert bicycle.replaced({"R": 0.3}) == dataclasses.replace(bicycle, R1=0.3, R2=0.3)
+    benchmark = Bicycle.preset("meijaard2007")
+    assert benchmark.notation["mB"] == "body mass [kg]"
+    expected = Bicycle.from_mapping({**BENCHMARK, "mB": 70, "source": benchmark.source}, name="meijaard2007")
+    assert benchmark.replaced({"mB": 70}) == expected
+    assert benchmark.replaced({"mB": 70}).replaced({"mB": BENCHMARK["mB"]}) == benchmark
+    with pytest.raises(InputError, match=r"^mB: -70 is not non-negative"):
+        benchmark.replaced({"mB": -70})
+    with pytest.raises(InputError, match=r"^mB: unknown parameter"):
+        bicycle.replaced({"mB": 70})
+
+
+def test_a_reduced_bicycle_with_another_mass_is_one_in_the_papers_notation():
+    changed = dataclasses.replace(Bicycle.preset("meijaard2007"), m1=90)
+    assert changed.replaced({"m2": 8}).m1 == 90
+
+
 def test_every_parameter_says_its_unit_and_meaning():
     for p in parameters():
         assert p.metadata["unit"]

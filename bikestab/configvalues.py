@@ -1,0 +1,192 @@
+"""The values a config is made of: numbers with units and limits, ranges and lists of them."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Annotated, Any, Generic, TypeAlias, TypeVar
+
+import numpy as np
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    RootModel,
+    Tag,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
+
+from bikestab.errors import InputError
+from bikestab.limits import check_tilt, check_trail
+from bikestab.model import Floats
+from bikestab.units import ANGLE, PURE, SPEED, quantity
+
+MOST_SPEED = 1e6  # m/s; more would overflow in hurwitz3
+ABSENT: Any = None  # a key that may be missing, while null would be no number
+
+
+def mistake(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> PydanticCustomError:
+    """What a validator raises; ``key`` is a whole path, and needed only where pydantic's own is not it."""
+    return PydanticCustomError("bikestab", "{problem}", {"problem": problem, "hint": hint, "key": key})
+
+
+def _reads(units: dict[str, float], check: str = "") -> BeforeValidator:
+    def validate(value: object) -> float:
+        words = ", or unbounded" if check == "upper speed" else ""
+        if words and value == "unbounded":
+            return math.inf
+        try:
+            number = quantity(value, units)
+            if check == "tilt":
+                check_tilt(number, ())
+            if check == "trail":
+                check_trail(number, ())
+        except InputError as error:
+            raise mistake(error.problem, error.hint + words) from None
+        if check.endswith("speed") and not 0 <= number <= MOST_SPEED:
+            problem = "is a speed backwards" if number < 0 else "m/s is out of range"
+            raise mistake(f"{number:g} {problem}", f"allowed: 0 ... {MOST_SPEED:g} m/s")
+        if check == "not negative" and number < 0:
+            raise mistake(f"{number:g} is negative", "allowed: 0 and above")
+        if check == "positive" and number <= 0:
+            raise mistake(f"{number:g} is not positive", "allowed: above 0")
+        if check == "share" and not 0 < number < 1:
+            raise mistake(f"{number:g} is no share of the samples", "allowed: between 0 and 1, both excluded")
+        return number
+
+    return BeforeValidator(validate)
+
+
+def _schema(units: dict[str, float], *words: str) -> WithJsonSchema:
+    text = {"type": "string", "pattern": rf"^\s*[-+.\d][-+.\deE]*\s*({'|'.join(units)})?\s*$"}
+    return WithJsonSchema({"anyOf": [{"type": "number"}, text, *({"const": word} for word in words)]})
+
+
+Tilt: TypeAlias = Annotated[float, _reads(ANGLE, "tilt"), _schema(ANGLE)]
+Trail: TypeAlias = Annotated[float, _reads(PURE, "trail")]
+Speed: TypeAlias = Annotated[float, _reads(SPEED, "speed"), _schema(SPEED)]
+UpperSpeed: TypeAlias = Annotated[float, _reads(SPEED, "upper speed"), _schema(SPEED, "unbounded")]
+Within: TypeAlias = Annotated[float, _reads(SPEED, "positive"), _schema(SPEED)]
+Damping: TypeAlias = Annotated[float, _reads(PURE, "not negative")]
+Number: TypeAlias = Annotated[float, _reads(PURE)]
+Share: TypeAlias = Annotated[
+    float, _reads(PURE, "share"), Field(json_schema_extra={"exclusiveMinimum": 0, "exclusiveMaximum": 1})
+]
+T = TypeVar("T")
+
+
+class Strict(BaseModel):
+    """Keys with values that do not change, and no others."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+def increasing(values: list[float]) -> list[float]:
+    """The values; raises the mistake of those that do not increase."""
+    for a, b in pairwise(values):
+        if not b > a:
+            raise mistake(f"{b} does not come after {a}", "allowed: values that increase")
+    return values
+
+
+class Range(Strict, Generic[T]):
+    """Equally spaced values, both ends included."""
+
+    start: T
+    stop: T
+    num: Annotated[int, Field(ge=2, strict=True, description="number of values")]
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Range[T]:
+        if not self.stop > self.start:  # type: ignore[operator]  # both are floats
+            raise mistake(f"stop = {self.stop} is not above start = {self.start}", "allowed: start < stop")
+        return self
+
+    @property
+    def size(self) -> int:
+        """How many values there are."""
+        return self.num
+
+    @property
+    def points(self) -> Floats:
+        """The values."""
+        return np.linspace(self.start, self.stop, self.num)  # type: ignore[call-overload]  # of floats
+
+
+class Values(Strict, Generic[T]):
+    """Values of one's own choice."""
+
+    values: Annotated[list[T], Field(min_length=2)]
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Values[T]:
+        increasing(self.values)  # type: ignore[arg-type]  # of floats
+        return self
+
+    @property
+    def size(self) -> int:
+        """How many values there are."""
+        return len(self.values)
+
+    @property
+    def points(self) -> Floats:
+        """The values."""
+        return np.array(self.values, dtype=float)
+
+
+class OneOrMore(Values[Number]):
+    """Values of one's own choice; one is enough."""
+
+    values: Annotated[list[Number], Field(min_length=1)]
+
+
+class Listed(RootModel[Annotated[list[Number], Field(min_length=1)]]):
+    """The same as a list alone."""
+
+    model_config = ConfigDict(frozen=True)
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Listed:
+        increasing(self.root)
+        return self
+
+    @property
+    def size(self) -> int:
+        """How many values there are."""
+        return len(self.root)
+
+    @property
+    def points(self) -> Floats:
+        """The values."""
+        return np.array(self.root, dtype=float)
+
+
+def _tag(given: Any) -> str:
+    chosen = isinstance(given, Values) or (isinstance(given, dict) and "values" in given)
+    return "values" if chosen else "range"
+
+
+def _tag_or_list(given: Any) -> str:
+    return _tag(given) if isinstance(given, (dict, Range, Values)) else "list"
+
+
+_BY_KEYS = Discriminator(_tag)
+TiltAxis: TypeAlias = Annotated[
+    Annotated[Range[Tilt], Tag("range")] | Annotated[Values[Tilt], Tag("values")], _BY_KEYS
+]
+TrailAxis: TypeAlias = Annotated[
+    Annotated[Range[Trail], Tag("range")] | Annotated[Values[Trail], Tag("values")], _BY_KEYS
+]
+SpeedAxis: TypeAlias = Annotated[
+    Annotated[Range[Speed], Tag("range")] | Annotated[Values[Speed], Tag("values")], _BY_KEYS
+]
+NumberAxis: TypeAlias = Annotated[
+    Annotated[Range[Number], Tag("range")]
+    | Annotated[OneOrMore, Tag("values")]
+    | Annotated[Listed, Tag("list")],
+    Discriminator(_tag_or_list),
+]
