@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import importlib
 import os
 import sys
@@ -55,6 +57,7 @@ def cli() -> None:
 
 def main() -> None:
     """Run the command line; errors are one to three lines on stderr, never a traceback."""
+    atexit.register(gc.freeze)  # the exit is 10 ms sooner if it looks for no garbage
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  # a device, open to the end
     try:
