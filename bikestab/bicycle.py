@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
@@ -165,7 +166,7 @@ class Bicycle:
     @classmethod
     def from_file(cls, path: str | Path) -> Bicycle:
         """A bicycle from a YAML file of such keys; InputError names file, line and key."""
-        return from_document(yamltext.read(path), Path(path).stem)
+        return _from_text(yamltext.read_text(path), str(path), Path(path).stem)
 
     @classmethod
     def preset(cls, name: str) -> Bicycle:
@@ -175,7 +176,7 @@ class Bicycle:
                 f"there is no bicycle {name!r}",
                 hint=f"{nearest(name, preset_names())} (see 'bikestab bicycles')",
             )
-        return from_document(yamltext.parse(preset_text(name), f"preset {name}"), name)
+        return _from_text(preset_text(name), f"preset {name}", name)
 
     @classmethod
     def load(cls, name_or_path: str) -> Bicycle:
@@ -186,8 +187,13 @@ class Bicycle:
         return cls.preset(name_or_path)
 
 
-def from_document(document: yamltext.Document, name: str) -> Bicycle:
-    """The bicycle in a parsed YAML document; InputError names file, line and key."""
+def _from_text(text: str, file: str, name: str) -> Bicycle:
+    """The bicycle in YAML text; InputError names file, line and key."""
+    values = yamltext.plain(text)
+    if values is not None:
+        with suppress(InputError):  # raised again below, with the line
+            return Bicycle.from_mapping(values, name=name)
+    document = yamltext.parse(text, file)
     try:
         return Bicycle.from_mapping(document.data, name=name)
     except InputError as error:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Sequence
 
 
@@ -42,6 +41,8 @@ def dotted(key: Sequence[str | int]) -> str:
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """A hint that names the known word nearest to ``word``, or all of them where none is near."""
+    import difflib  # only a mistake needs it
+
     known = list(known)
     folded = {k.casefold(): k for k in known}
     match = difflib.get_close_matches(word.casefold(), folded, n=1, cutoff=0.6)

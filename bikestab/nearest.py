@@ -46,7 +46,8 @@ def nearest_stable(bicycle: Bicycle, lam: float, sigma: float, *, model: Model =
     def at_lam(values: Floats) -> Floats:
         return characteristic_table(bicycle, values, sigma, model=model)
 
-    V, growth = _slowest(lambda V: growth_rate(characteristic_table(bicycle, lam, sigma, model=model), V))
+    table = characteristic_table(bicycle, lam, sigma, model=model)
+    V, growth = _slowest(lambda V: growth_rate(table, V))
     finite = bool(np.isfinite(growth))
     return Nearest(
         sigma_min=_inside(at_sigma, *sigmas[0]) if sigmas else None,

@@ -184,7 +184,8 @@ def _zeros(values: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[
     degree = _NODES - 1 - np.argmax(series[:, ::-1] != 0, axis=1)
     possible = np.abs(series[:, 0]) <= np.abs(series[:, 1:]).sum(axis=1) * (1 + 1e-9)
     rows, zeros = [np.empty(0, np.intp)], [np.empty(0)]
-    for n in np.unique(degree[possible & (degree > 0)]):
+    # np.unique would import numpy.ma, which takes longer than this
+    for n in np.flatnonzero(np.bincount(degree[possible & (degree > 0)])):
         chosen = np.flatnonzero(possible & (degree == n))
         roots = np.asarray(np.linalg.eigvals(_companions(series[chosen, : n + 1])), dtype=complex)
         real = (np.abs(roots.imag) < _NEARLY_REAL) & (np.abs(roots.real) <= 1 + 1e-9)

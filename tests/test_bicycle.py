@@ -67,7 +67,7 @@ def test_reduction_by_parallel_axes(n):
         "2": [("H", n["xH"], -n["zH"], n["IHzz"], n["IHxz"]), ("F", n["w"], n["rF"], n["IFxx"], 0)],
     }
     for i, pair in bodies.items():
-        m, l, h, A, B, D = (getattr(bicycle, letter + i) for letter in "mlhABD")  # noqa: E741
+        m, l, h, A, B, D = (getattr(bicycle, letter + i) for letter in "mlhABD")  # noqa: E741  # the paper's letters
         expected = [
             sum(n["m" + b] for b, *_ in pair),
             sum(n["m" + b] * x for b, x, *_ in pair),

@@ -68,7 +68,8 @@ def in_numbers(model):
 
 def test_models_differ_in_the_gravity_terms_by_the_pitch():
     refined, unrefined = (derived.derive(model).coefficients for model in MODELS)
-    l, c1 = derived.m1 * derived.l1 + derived.m2 * derived.l2, derived.sigma * c * sp.cos(derived.lam)  # noqa: E741
+    l = derived.m1 * derived.l1 + derived.m2 * derived.l2  # noqa: E741  # the paper's letter
+    c1 = derived.sigma * c * sp.cos(derived.lam)
     more = derived.g * l * c1
     difference = {name: sp.expand(refined[name] - unrefined[name]) for name in refined}
     assert {name for name, value in difference.items() if value != 0} == {"a4", "b3", "b6"}
@@ -248,7 +249,8 @@ def test_capsize_speed_in_closed_form():
     b = Bicycle.preset("meijaard2007").with_delta(0.5)
     lam, sigma = np.linspace(0, 0.8, 41)[:, np.newaxis], np.linspace(0, 0.3, 41)
     found = stable_intervals(characteristic_table(b, lam, sigma))
-    l, h, K1, K2 = b.m1 * b.l1 + b.m2 * b.l2, b.m1 * b.h1 + b.m2 * b.h2, b.C1 / b.R1, b.C2 / b.R2  # noqa: E741
+    l, h = b.m1 * b.l1 + b.m2 * b.l2, b.m1 * b.h1 + b.m2 * b.h2  # noqa: E741  # the paper's letters
+    K1, K2 = b.C1 / b.R1, b.C2 / b.R2
     c1 = sigma * b.c * np.cos(lam)
     d = b.h2 * np.sin(lam) + (b.l2 - b.c) * np.cos(lam) - c1
     S = b.m2 * d + l * c1 / b.c

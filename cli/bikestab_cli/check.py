@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import click
@@ -38,7 +39,8 @@ def command(configs: tuple[str, ...]) -> None:
             found, holds = _compare(name, config, expectation, i)
             failed += not holds
             rows.append([name, *found, "holds" if holds else "FAILED"])
-    click.echo(table(["config", "lam", "sigma", "expected [m/s]", "found [m/s]", ""], rows))
+    with suppress(BrokenPipeError):  # the exit code is wanted also by those who read no more
+        click.echo(table(["config", "lam", "sigma", "expected [m/s]", "found [m/s]", ""], rows))
     if failed:
         click.echo(f"{failed} of {len(rows)} expectations failed", err=True)
         click.get_current_context().exit(1)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import importlib
 import os
 import sys
@@ -55,14 +57,15 @@ def cli() -> None:
 
 def main() -> None:
     """Run the command line; errors are one to three lines on stderr, never a traceback."""
+    atexit.register(gc.freeze)  # the exit is 10 ms sooner if it looks for no garbage
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  # a device, open to the end
+    code = 0
     try:
         code = _run(sys.argv[1:])
         sys.stdout.flush()
     except BrokenPipeError:  # the reader of a pipe, such as head, has had enough
         _drop_output()
-        code = 0
     except OSError as error:
         _drop_output()
         code = _tell(3, f"could not finish: {error.strerror or error}")

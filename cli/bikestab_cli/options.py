@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from collections.abc import Callable, Sequence
@@ -118,6 +117,8 @@ def warn(bicycle: Bicycle) -> None:
 
 def print_json(value: object) -> None:
     """JSON on stdout; anything not finite has been turned into null or text before."""
+    import json
+
     click.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
 
 

@@ -4,6 +4,7 @@ import csv
 import json
 import shutil
 import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -69,7 +70,7 @@ def test_all_at_once(bikestab, volumes, tmp_path, name):
     )
     assert surface.point_data["V"].max() <= 10
     assert surface.field_data["source"][0].startswith("bikestab ")
-    with open("i.csv") as file:  # noqa: PTH123  # a name in this folder
+    with Path("i.csv").open() as file:
         rows = list(csv.DictReader(file))
     without = 16 - len({(row["lam"], row["sigma"]) for row in rows})
     words = f"{without} of 16 designs have no stable speed and no row"
@@ -83,7 +84,7 @@ def test_all_at_once(bikestab, volumes, tmp_path, name):
 
 def test_intervals_are_those_of_vrange(bikestab, volumes):
     assert bikestab("export", volumes["2007"], "--intervals", "i.csv")[0] == 0
-    with open("i.csv") as file:  # noqa: PTH123
+    with Path("i.csv").open() as file:
         rows = [row for row in csv.DictReader(file) if row["sigma"] == "0.15"]
     _, out, _ = bikestab(
         "vrange", "--bicycle", "meijaard2007", "--lam", "0.1:0.3:4", "--sigma", 0.15, "--json"

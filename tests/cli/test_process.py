@@ -109,6 +109,21 @@ def test_head(args):
     assert (process.wait(), stderr) == (0, b"")
 
 
+@pytest.mark.parametrize(
+    ("lam", "code", "told"),
+    [(0.3, 1, b"1 of 1 expectations failed\n"), (0.1, 0, b"")],
+    ids=["fails", "holds"],
+)
+def test_check_that_nobody_reads(lam, code, told):
+    """Like ``bikestab check … | head -0``: the exit code says what was found."""
+    Path("a.yaml").write_text(grid(3, 3) + f"expect: [{{lam: {lam}, sigma: 0.08, stable: never}}]\n")
+    process = subprocess.Popen([BIKESTAB, "check", "a.yaml"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process.stdout.close()
+    stderr = process.stderr.read()
+    process.stderr.close()
+    assert (process.wait(), stderr) == (code, told)
+
+
 @pytest.mark.parametrize("args", [["schema"], ["vrange", "--bicycle", "meijaard2007"]])
 def test_stdout_on_a_full_disk(args):
     if not Path("/dev/full").exists():

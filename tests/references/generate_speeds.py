@@ -106,7 +106,7 @@ def polynomial(machine: dict[str, float], lam: Any, sigma: Any, delta: Any, mode
 
     c1 = c * Sum(sigma) * cos
     d = h2 * sin + (l2 - c) * cos - c1
-    l, h = m1 * l1 + m2 * l2, m1 * h1 + m2 * h2  # noqa: E741
+    l, h = m1 * l1 + m2 * l2, m1 * h1 + m2 * h2  # noqa: E741  # the paper's letters
     J = m2 * d * d + A2 * sin * sin - 2 * D2 * sin * cos + B2 * cos * cos
     J1, J2 = m1 * h1 * h1 + A1 + m2 * h2 * h2 + A2, m1 * l1 * l1 + B1 + m2 * l2 * l2 + B2
     J3, J4 = m2 * h2 * d + A2 * sin - D2 * cos, m2 * d * l2 - D2 * sin + B2 * cos
