@@ -1,7 +1,7 @@
-"""A check of the critical speeds: sign changes of the conditions (2.2) on the grid, refined.
+"""A check of the exact critical speeds against the conditions (2.2) themselves.
 
-A second way to them, independent of the polynomials in ``speeds``: the conditions themselves are
-evaluated at the grid's speeds, and each sign change is refined by scipy.
+``speeds`` finds them as roots of polynomials in V. Here the conditions are evaluated as they stand: on
+both sides of every root, which brackets it, and at speeds of the grid, which finds roots that are missing.
 """
 
 from __future__ import annotations
@@ -11,32 +11,25 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import elementwise
 
-from bikestab.errors import ScanError
 from bikestab.model import Floats
-from bikestab.routh import CONDITIONS, condition_polynomials, conditions
+from bikestab.routh import CONDITIONS, condition, condition_polynomials, conditions, violated
+from bikestab.speeds import Critical
 
 AGREEMENT = 1e-10  # m/s, between this way and the exact one
+SAMPLE = 8  # speeds of the grid at which the signs are compared
 _ROUNDING = 16 * np.finfo(float).eps  # of a condition, relative to the sum of its terms' sizes
 _ZERO = 128 * np.finfo(float).eps  # below it a condition is no number: ``routh`` drops what is below half
-
-
-class Brackets(NamedTuple):
-    """Sign changes of one condition: in which cell, and between which two speeds [m/s]."""
-
-    cell: NDArray[np.intp]
-    low: Floats
-    high: Floats
+_FAR = 1e-3  # m/s; a difference above is called infinite
 
 
 class Agreement(NamedTuple):
-    """How far the refined roots are from the exact speeds.
+    """How far the conditions' own zeros are from the exact speeds.
 
-    ``largest`` [m/s] is over the roots that double precision fixes to AGREEMENT, and inf if one of them
-    is no exact speed at all; of the ``loose`` others, close to a fold, ``largest_loose`` is the same.
-    ``touching`` counts roots that are neither: the condition is zero there to rounding, and which sign
-    it has, if it changes it at all, cannot be told.
+    ``largest`` [m/s] is over the roots that double precision fixes to AGREEMENT, and inf where one has no
+    zero near it or the signs on the grid are others; of the ``loose`` others, close to a fold,
+    ``largest_loose`` is the same. ``touching`` counts places that are neither: the condition is zero
+    there to rounding, and which sign it has, if it changes it at all, cannot be told.
     """
 
     roots: int = 0
@@ -55,73 +48,83 @@ class Agreement(NamedTuple):
         )
 
 
-def sign_changes(mask: NDArray[np.uint8], V: Floats) -> dict[str, Brackets]:
-    """Where each bit of ``violated``, shape (cell, len(V)), changes from one speed to the next."""
-    change = mask[:, 1:] ^ mask[:, :-1]
-    found = {}
-    for bit, name in enumerate(CONDITIONS):
-        cell, i = np.nonzero(change & (1 << bit))
-        found[name] = Brackets(cell, V[i], V[i + 1])
-    return found
-
-
-def refine(table: Floats, name: str, brackets: Brackets) -> Brackets:
-    """The roots in the brackets as ``low`` = ``high``; those at V = 0 are dropped.
-
-    ``table`` has shape (5, 4, cell). Raises ScanError if a root is not found.
-    """
-
-    def value(V: Floats, *entries: Floats) -> Floats:
-        return getattr(conditions(np.array(entries).reshape(5, 4, -1), V), name)
-
-    cell, low, high = brackets
-    entries = tuple(table[..., cell].reshape(20, -1))
-    if len(cell):  # at rest every odd coefficient is zero, which is no crossing of the surface
-        at_rest = (low == 0) & (value(low, *entries) == 0)
-        cell, low, high = cell[~at_rest], low[~at_rest], high[~at_rest]
-        entries = tuple(table[..., cell].reshape(20, -1))
-    if not len(cell):
-        return Brackets(cell, low, high)
-    found = elementwise.find_root(
-        value, (low, high), args=entries, tolerances={"xrtol": 1e-15, "xatol": 1e-15}
-    )
-    if not found.success.all():
-        worst = int(np.argmin(found.success))
-        raise ScanError(
-            f"{name}: {np.count_nonzero(~found.success)} of {len(cell)} sign changes could not be refined, "
-            f"the first between {low[worst]:.9g} and {high[worst]:.9g} m/s (status {found.status[worst]})"
-        )
-    return Brackets(cell, found.x, found.x)
-
-
-def agreement(table: Floats, name: str, roots: Brackets, exact: Floats) -> Agreement:
-    """Compare refined roots with the exact speeds (root, cell) of the same condition.
+def check(table: Floats, critical: Critical, mask: NDArray[np.uint8], V: Floats) -> Agreement:
+    """Compare the critical speeds up to V[-1] of a table (5, 4, cell), and its mask (cell, V).
 
     A root is as uncertain as the rounding of the condition's terms divided by its slope; where that
     is more than AGREEMENT neither way can tell better. There the two may differ by what the rounding
     allows, or one of them may see two roots and the other none.
     """
-    cell, V, _ = roots
-    if not len(cell):
+    found = _signs(table, mask, V)
+    for name in CONDITIONS:
+        for root in critical.speeds[name]:
+            found = found.joined(_zeros(table, name, np.where(root <= V[-1], root, np.nan)))
+    return found
+
+
+def _zeros(table: Floats, name: str, root: Floats) -> Agreement:
+    """Whether the condition changes its sign within AGREEMENT of each root (cell,); NaN = none."""
+    number = int(np.count_nonzero(root > 0))
+    if not number:
         return Agreement()
-    padded = np.concatenate([exact[:, cell], np.full((1, len(cell)), np.inf)])
-    difference = np.nanmin(np.abs(padded - V), axis=0)
-    a = conditions(np.abs(table[..., cell]), V)
-    size = getattr(a, name) if name != "hurwitz3" else a.p1 * (a.p2 * a.p3 + a.p4 * a.p1) + a.p0 * a.p3**2
-    taylor = _taylor(condition_polynomials(table[..., cell])[name], V)
+    step = np.minimum(AGREEMENT, 0.5 * root)
+    below, above = (condition(table, name, root + side * step) for side in (-1, 1))
+    with np.errstate(invalid="ignore"):
+        between = np.sign(below) * np.sign(above) < 0
+        secant = step * np.abs((below + above) / (below - above))
+    largest = float(secant[between].max(initial=0))
+    poor = np.flatnonzero((root > 0) & ~between)
+    found = Agreement(number, largest)
+    return found.joined(_poor(table[..., poor], name, root[poor])) if len(poor) else found
+
+
+def _poor(table: Floats, name: str, root: Floats) -> Agreement:
+    """What is the matter with roots where the condition has one sign on both sides."""
+    size, taylor = _size(table, name, root), _taylor(condition_polynomials(table)[name], root)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         sharp = _ROUNDING * size / np.abs(taylor[1]) < AGREEMENT
-        near = difference <= _reach(taylor, _ZERO * size)
-    loose = ~sharp & near
-    touching = ~sharp & ~near & (np.abs(taylor[0]) <= _ZERO * size)
-    alone = ~(sharp | loose | touching)
+        reach = np.where(sharp, _FAR, _reach(taylor, _ZERO * size))
+    difference = np.full(len(root), np.inf)
+    step = np.minimum(AGREEMENT, 0.5 * root)
+    while np.any(step < reach):
+        step = np.minimum(2 * step, reach)
+        below, above = (condition(table, name, root + side * step) for side in (-1, 1))
+        zero = (np.sign(below) * np.sign(above) <= 0) & np.isinf(difference)
+        difference[zero] = step[zero]
+    value = condition(table, name, root)
+    loose = ~sharp & np.isfinite(difference)
+    touching = ~sharp & ~loose & (np.abs(value) <= _ZERO * size)
     return Agreement(
-        len(cell),
-        np.inf if alone.any() else float(difference[sharp].max(initial=0)),
+        0,
+        float(difference[~(loose | touching)].max(initial=0)),
         int(np.count_nonzero(loose)),
         float(difference[loose].max(initial=0)),
         int(np.count_nonzero(touching)),
     )
+
+
+def _signs(table: Floats, mask: NDArray[np.uint8], V: Floats) -> Agreement:
+    """Whether the conditions have the signs of the mask at SAMPLE speeds of the grid."""
+    at = np.unique(np.linspace(0, len(V) - 1, SAMPLE).astype(int))
+    cell, i = np.nonzero(violated(conditions(table[..., np.newaxis], V[at])) != mask[:, at])
+    if not len(cell):
+        return Agreement()
+    table, V, mask = table[..., cell], V[at[i]], mask[cell, at[i]]
+    values = conditions(table, V)
+    other = violated(values) ^ mask
+    wrong, touching = 0, 0
+    for bit, name in enumerate(CONDITIONS):
+        zero = np.abs(getattr(values, name)) <= _ZERO * _size(table, name, V)
+        differs = (other >> bit) & 1 == 1
+        wrong += int(np.count_nonzero(differs & ~zero))
+        touching += int(np.count_nonzero(differs & zero))
+    return Agreement(0, np.inf if wrong else 0.0, touching=touching)
+
+
+def _size(table: Floats, name: str, V: Floats) -> Floats:
+    """The sum of the sizes of a condition's terms."""
+    a = conditions(np.abs(table), V)
+    return getattr(a, name) if name != "hurwitz3" else a.p1 * (a.p2 * a.p3 + a.p4 * a.p1) + a.p0 * a.p3**2
 
 
 def _taylor(polynomial: Floats, V: Floats) -> Floats:

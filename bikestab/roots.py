@@ -23,20 +23,21 @@ def positive_roots(coefficients: Floats) -> Floats:
     """
     shape = coefficients.shape[1:]
     c = coefficients.reshape(len(coefficients), -1)
-    out = np.full((max(len(c) - 1, 1), c.shape[1]), np.nan)
-    for start in range(0, c.shape[1], _CHUNK):
-        part = slice(start, start + _CHUNK)
-        found = _solve(c[:, part])
-        out[: len(found), part] = found
-    most = int(np.isfinite(out).any(axis=1).sum())
-    return out[:most].reshape(most, *shape)
+    parts = [_solve(c[:, start : start + _CHUNK]) for start in range(0, c.shape[1], _CHUNK)]
+    most = max((int(np.isfinite(part).any(axis=1).sum()) for part in parts), default=0)
+    out = np.full((most, c.shape[1]), np.nan)
+    for i, part in enumerate(parts):
+        kept = part[:most]
+        out[: len(kept), i * _CHUNK : i * _CHUNK + _CHUNK] = kept
+    return out.reshape(most, *shape)
 
 
 def sign_near_zero(coefficients: Floats) -> Floats:
     """The sign of each polynomial just right of zero: −1, 0 (identically zero) or 1."""
     sign = np.zeros(coefficients.shape[1:])
     for c in coefficients:
-        sign = np.where(sign == 0, np.sign(c), sign)
+        if np.any(c):
+            sign = np.where(sign == 0, np.sign(c), sign)
     return sign
 
 
@@ -46,14 +47,20 @@ def _solve(c: Floats) -> Floats:
         return np.empty((0, c.shape[1]))
     step = int(np.gcd.reduce(np.diff(used)))  # the conditions without damping depend on V² alone
     c = c[used[0] : used[-1] + 1 : step]
-    roots = _quadratic(c) if len(c) <= 3 else _bracketed(c)
+    roots = _linear(c) if len(c) == 2 else _quadratic(c) if len(c) == 3 else _bracketed(c)
     return roots if step == 1 else roots ** (1 / step) if step > 2 else np.sqrt(roots)
 
 
+def _linear(c: Floats) -> Floats:
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        root = c[:1] / -c[1]
+    root[~(np.isfinite(root) & (root > 0))] = np.nan
+    return root
+
+
 def _quadratic(c: Floats) -> Floats:
-    """The positive sign changes of c0 + c1 x (+ c2 x²), without subtracting nearly equal numbers."""
-    c0, c1 = c[0], c[1]
-    c2 = c[2] if len(c) == 3 else np.zeros_like(c0)
+    """The positive sign changes of c0 + c1 x + c2 x², without subtracting nearly equal numbers."""
+    c0, c1, c2 = c
     square = c1 * c1 - 4 * c0 * c2
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         q = -0.5 * (c1 + np.copysign(np.sqrt(square), c1))  # NaN without real roots
@@ -61,7 +68,7 @@ def _quadratic(c: Floats) -> Floats:
     pair[:, ~(square > 0)] = np.nan
     pair[~(np.isfinite(pair) & (pair > 0))] = np.nan
     pair[0, c2 == 0] = np.nan
-    return np.sort(pair, axis=0)[: len(c) - 1]  # NaN sorts last
+    return np.sort(pair, axis=0)  # NaN sorts last
 
 
 def _bracketed(c: Floats) -> Floats:

@@ -48,6 +48,15 @@ def conditions(table: Floats, V: ArrayLike) -> Conditions:
     return Conditions(p0, p1, p2, p3, p4, hurwitz3)
 
 
+def condition(table: Floats, name: str, V: ArrayLike) -> Floats:
+    """One of the left sides of (2.2), by its name; shapes as in ``coefficients_at``."""
+    if name == "hurwitz3":
+        return conditions(table, V).hurwitz3
+    V, row = np.asarray(V, dtype=float), table[CONDITIONS.index(name)]
+    powers = np.any(row, axis=tuple(range(1, row.ndim)))
+    return _polynomial(row, powers, V, np.broadcast_shapes(row.shape[1:], V.shape))
+
+
 def violated(values: Conditions) -> NDArray[np.uint8]:
     """A bit mask: bit k = p_k ≤ 0 for k = 0…4, bit 5 = hurwitz3 ≤ 0; 0 means stable."""
     holds = np.zeros(np.shape(values[0]), np.uint8)

@@ -4,25 +4,26 @@ A simple root moves continuously with (λ, σ), keeps its direction (with V the 
 zero there, or falls) and meets only roots of the other direction: both end there, at a fold. So each
 sheet has one direction, and one with at most one root per cell is a sheet as it stands. Damping gives
 hurwitz3 several of a direction, which are linked from cell to cell.
+
+A plane may come in tiles: a sheet is put together from the tiles' own, so that no more than two rows
+of tiles are ever needed at once.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components, dijkstra
 
 from bikestab.model import Floats
-from bikestab.roots import sign_near_zero
-from bikestab.routh import CONDITIONS, condition_polynomials
-from bikestab.speeds import CAPSIZE, WEAVE, Intervals, critical_speeds
+from bikestab.routh import CONDITIONS
+from bikestab.speeds import CAPSIZE, WEAVE, Intervals, critical, widened
 
 Indices = NDArray[np.intp]
 
 EDGES = {"p0": CAPSIZE, "hurwitz3": WEAVE}  # the kind of end where a condition can be an edge of stability
+_NO_PAIRS = np.empty((2, 0), np.intp)
 SPEED = 5.0  # m/s; roots are near each other in V/(V + SPEED), in which V → ∞ is a place like any other
 
 
@@ -49,10 +50,9 @@ class Sheets(NamedTuple):
 
 def critical_roots(table: Floats) -> dict[str, Roots]:
     """The roots of each condition of a table (5, 4, λ, σ)."""
-    speeds, polynomials = critical_speeds(table), condition_polynomials(table)
+    speeds, sign = critical(table)
     return {
-        name: Roots(np.moveaxis(speeds[name], 0, -1), sign_near_zero(polynomials[name])[..., np.newaxis] < 0)
-        for name in CONDITIONS
+        name: Roots(np.moveaxis(speeds[name], 0, -1), sign[name][..., np.newaxis] < 0) for name in CONDITIONS
     }
 
 
@@ -60,28 +60,147 @@ def sheets(name: str, roots: Roots, intervals: Intervals) -> Sheets:
     """Arrange a condition's roots into sheets and tell which are ends of ``intervals`` (λ, σ, interval).
 
     Roots of neighbouring cells share a slot if they are of one sheet, and only then. Slots are in the
-    order of their median speeds; a slot's roots all have one direction.
+    order of their mean speeds, as the mean of V/(V + SPEED); a slot's roots all have one direction.
     """
-    shape = roots.V.shape[:2]
-    parts: list[tuple[float, Floats, NDArray[np.bool_]]] = []  # per slot: its median, and a plane of each
-    for rising, ends, kinds in (
-        (roots.rising, intervals.V1, intervals.lower),  # stability begins where the condition rises
-        (~roots.rising, intervals.V2, intervals.upper),
-    ):
-        V = _every_other(roots.V, rising)
-        edge = _is_end(V, ends, kinds == EDGES.get(name))
-        slot = _slots(V)
-        for k in range(int(slot.max(initial=-1)) + 1):
-            plane = np.full(shape, np.nan), np.zeros(shape, bool)
-            at = slot == k
-            cell = at.any(axis=-1)
-            plane[0][cell], plane[1][cell] = V[at], edge[at]
-            parts.append((float(np.median(V[at])), *plane))
-    parts.sort(key=lambda part: part[0])  # stable: of two equal medians the rising one is first
-    out = Sheets(np.empty((*shape, len(parts))), np.empty((*shape, len(parts)), np.uint8))
-    for k, (_, plane_V, plane_edge) in enumerate(parts):
-        out.V[..., k], out.edge[..., k] = plane_V, plane_edge
-    return out
+    atlas = Atlas(name, most_roots(roots))
+    atlas.add((0, 0), roots)
+    atlas.finish()
+    return atlas.sheets((0, 0), roots, intervals)
+
+
+def most_roots(roots: Roots) -> tuple[int, int]:
+    """How many roots a cell has at most at which the condition rises, and at which it falls."""
+    rising, falling = (int(np.count_nonzero(V > 0, axis=-1).max(initial=0)) for V in _directed(roots))
+    return rising, falling
+
+
+class Atlas:
+    """The sheets of a condition over a plane that comes in tiles.
+
+    ``most`` is ``most_roots`` of the whole plane. Every tile is given to ``add``, row by row; after
+    ``finish`` each can be had back from ``sheets``, and ``width`` is the number of slots.
+    """
+
+    def __init__(self, name: str, most: tuple[int, int]) -> None:
+        self.name, self.width = name, 0
+        self._directions = tuple(_Direction(n) for n in most)  # in which the condition rises, and falls
+
+    def add(self, place: tuple[int, int], roots: Roots) -> None:
+        """Take in the tile that begins at ``place``, an index of λ and one of σ."""
+        for direction, V in zip(self._directions, _directed(roots), strict=True):
+            direction.add(place, V)
+
+    def finish(self) -> None:
+        """Give each sheet its slot."""
+        order = []  # of two slots with equal means the rising one is first
+        for k, direction in enumerate(self._directions):
+            order += [(mean, k, slot) for slot, mean in enumerate(direction.finish())]
+        self._order = [(k, slot) for _, k, slot in sorted(order)]
+        self.width = len(order)
+
+    def sheets(self, place: tuple[int, int], roots: Roots, intervals: Intervals) -> Sheets:
+        """The sheets of a tile, and which of their roots are ends of its ``intervals``."""
+        shape = (*roots.V.shape[:2], self.width)
+        out = Sheets(np.full(shape, np.nan), np.zeros(shape, np.uint8))
+        ends = (intervals.V1, intervals.lower), (intervals.V2, intervals.upper)  # stability begins rising
+        for k, V in enumerate(_directed(roots)):
+            edge = _is_end(V, ends[k][0], ends[k][1] == EDGES.get(self.name))
+            slot = self._directions[k].slots(place, V)
+            for i, (direction, number) in enumerate(self._order):
+                at = slot == number
+                if direction == k and at.any():
+                    cell = at.any(axis=-1)
+                    out.V[cell, i], out.edge[cell, i] = V[at], edge[at]
+        return out
+
+
+class _Direction:
+    """The sheets of one direction, put together from those of the tiles."""
+
+    def __init__(self, most: int) -> None:
+        self.linked = most > 1  # else there is nothing to tell apart
+        self._count: list[int] = []  # roots of each tile's sheet, and the sum of their places
+        self._sum: list[float] = []
+        self._first: dict[tuple[int, int], int] = {}  # the number of a tile's first sheet
+        self._overlap: list[Indices] = []  # pairs (2, …) of sheets that share a cell,
+        self._touch: list[Indices] = []  # of those that share one or have neighbours,
+        self._joint: list[Indices] = []  # and of those that continue each other in the next tile
+        self._borders: dict[str, tuple[Floats, Indices]] = {}  # last row of each column, last column
+
+    def add(self, place: tuple[int, int], V: Floats) -> None:
+        sheet, number = self._local(V)
+        first = self._first[place] = len(self._count)
+        there = sheet >= 0
+        self._count += np.bincount(sheet[there], minlength=number).tolist()
+        self._sum += np.bincount(sheet[there], _place(V[there]), minlength=number).tolist()
+        if not self.linked:
+            return
+        sheet = np.where(there, sheet + first, -1)
+        shared = _pairs(sheet, sheet)
+        self._overlap.append(shared)
+        self._touch += [shared, _pairs(sheet[1:], sheet[:-1]), _pairs(sheet[:, 1:], sheet[:, :-1])]
+        ours = {f"row {place[1]}": (V[-1:], sheet[-1:]), f"column {place[0]}": (V[:, -1:], sheet[:, -1:])}
+        for axis, key, edge in ((0, f"row {place[1]}", np.s_[:1]), (1, f"column {place[0]}", np.s_[:, :1])):
+            if key in self._borders:
+                strips = zip(self._borders[key], (V[edge], sheet[edge]), strict=True)
+                strip_V, strip = (_joined(pair, axis) for pair in strips)
+                self._touch.append(_pairs(*np.split(strip, 2, axis=axis)))
+                self._joint.append(strip[np.isfinite(strip_V)][_links(strip_V, axis)])
+        self._borders |= ours
+
+    def finish(self) -> list[float]:
+        """Join what continues each other and give each sheet a slot; the mean place of each slot."""
+        number = len(self._count)
+        self._slot = np.zeros(number, np.intp)
+        if self.linked:
+            sheet = self._merged(number)
+            self._slot = _first_free(sheet, np.array(self._count), sheet[np.concatenate(self._touch, axis=1)])
+        count = np.bincount(self._slot, self._count)
+        return (np.bincount(self._slot, self._sum)[count > 0] / count[count > 0]).tolist()
+
+    def _merged(self, number: int) -> Indices:
+        """Which sheets of tiles are one: all that continue each other, unless they then share a cell."""
+        sheet = list(range(number))
+        apart: list[set[int]] = [set() for _ in sheet]
+        for a, b in np.concatenate(self._overlap, axis=1).T.tolist():
+            if a != b:
+                apart[a].add(b)
+                apart[b].add(a)
+
+        def root(a: int) -> int:
+            while sheet[a] != a:
+                sheet[a] = a = sheet[sheet[a]]
+            return a
+
+        joint = np.concatenate([_NO_PAIRS, *self._joint], axis=1)
+        links, times = np.unique(joint, axis=1, return_counts=True)
+        for k in np.argsort(-times, kind="stable"):
+            a, b = sorted(root(end) for end in links[:, k].tolist())
+            if a != b and not any(root(other) == b for other in apart[a]):
+                sheet[b] = a
+                apart[a] |= apart[b]
+        return np.array([root(a) for a in range(number)], np.intp)
+
+    def slots(self, place: tuple[int, int], V: Floats) -> Indices:
+        """The slot of each root of a tile, −1 for NaN."""
+        sheet = self._local(V)[0]
+        known = np.append(self._slot[self._first[place] :], -1)
+        return known[np.where(sheet >= 0, sheet, len(known) - 1)]
+
+    def _local(self, V: Floats) -> tuple[Indices, int]:
+        """The sheet within the tile of each root, V (λ, σ, root) ascending, −1 for NaN; and their number."""
+        there = np.isfinite(V)
+        sheet = np.where(there, 0, -1)
+        if self.linked:
+            cell = np.repeat(np.arange(V.shape[0] * V.shape[1]), np.count_nonzero(there, axis=-1).ravel())
+            links = np.concatenate([_links(V, axis) for axis in (0, 1)], axis=1)
+            sheet[there] = _single_valued(links, cell)
+        return sheet, int(sheet.max(initial=-1)) + 1
+
+
+def _directed(roots: Roots) -> tuple[Floats, Floats]:
+    """The roots at which the condition rises, and those at which it falls, NaN behind the last."""
+    return _every_other(roots.V, roots.rising), _every_other(roots.V, ~roots.rising)
 
 
 def _every_other(V: Floats, first: NDArray[np.bool_]) -> Floats:
@@ -101,33 +220,38 @@ def _is_end(V: Floats, ends: Floats, kind: NDArray[np.bool_]) -> NDArray[np.bool
     return end
 
 
-def _slots(V: Floats) -> Indices:
-    """The slot of each root of one direction, V (λ, σ, root) ascending; −1 for NaN."""
-    there = np.isfinite(V)
-    slot = np.where(there, 0, -1)
-    if np.count_nonzero(there, axis=-1).max(initial=0) > 1:  # else there is nothing to tell apart
-        cell = np.repeat(np.arange(V.shape[0] * V.shape[1]), np.count_nonzero(there, axis=-1).ravel())
-        sheet = _single_valued(_links(V), cell)
-        slot[there] = _first_free(sheet, cell, V.shape[:2])
-    return slot
+def _place(V: Floats) -> Floats:
+    return V / (V + SPEED)
 
 
-def _links(V: Floats) -> Indices:
-    """Pairs (2, link) of roots, numbered as in V[isfinite(V)], that continue each other in the next cell.
+def _links(V: Floats, axis: int) -> Indices:
+    """Pairs (2, link) of roots, numbered as in V[isfinite(V)], that continue each other along an axis.
 
     Each is the other's nearest, so a pair born at a fold between two cells takes no root's partner away.
     """
-    x, there = V / (V + SPEED), np.isfinite(V)
+    x, there = _place(V), np.isfinite(V)
     number = np.cumsum(there.ravel()).reshape(V.shape) - 1
-    links = []
-    for a, b in ((np.s_[:-1], np.s_[1:]), (np.s_[:, :-1], np.s_[:, 1:])):
-        far = np.abs(x[a][..., :, np.newaxis] - x[b][..., np.newaxis, :])
-        far[np.isnan(far)] = np.inf
-        ahead, back = far.argmin(axis=-1), far.argmin(axis=-2)
-        mutual = np.take_along_axis(back, ahead, axis=-1) == np.arange(V.shape[-1])
-        mutual &= there[a] & np.take_along_axis(there[b], ahead, axis=-1)
-        links.append([number[a][mutual], np.take_along_axis(number[b], ahead, axis=-1)[mutual]])
-    return np.concatenate(links, axis=1)
+    a, b = ((np.s_[:-1], np.s_[1:]), (np.s_[:, :-1], np.s_[:, 1:]))[axis]
+    far = np.abs(x[a][..., :, np.newaxis] - x[b][..., np.newaxis, :])
+    far[np.isnan(far)] = np.inf
+    ahead, back = far.argmin(axis=-1), far.argmin(axis=-2)
+    mutual = np.take_along_axis(back, ahead, axis=-1) == np.arange(V.shape[-1])
+    mutual &= there[a] & np.take_along_axis(there[b], ahead, axis=-1)
+    return np.array([number[a][mutual], np.take_along_axis(number[b], ahead, axis=-1)[mutual]])
+
+
+def _pairs(a: Indices, b: Indices) -> Indices:
+    """The pairs (2, pair) of different sheets that a cell of ``a`` and the same one of ``b`` have."""
+    one, other = (x.reshape(-1) for x in np.broadcast_arrays(a[..., :, np.newaxis], b[..., np.newaxis, :]))
+    some = (one >= 0) & (other >= 0) & (one != other)
+    return np.unique(np.array([one[some], other[some]]), axis=1)
+
+
+def _joined(pair: tuple[NDArray, NDArray], axis: int) -> NDArray:
+    """Two strips of roots beside each other, the shorter last axis filled up."""
+    most = max(strip.shape[-1] for strip in pair)
+    empty = np.nan if pair[0].dtype == float else -1
+    return np.concatenate([widened(strip, most, empty) for strip in pair], axis=axis)
 
 
 def _single_valued(links: Indices, cell: Indices) -> Indices:
@@ -147,13 +271,13 @@ def _single_valued(links: Indices, cell: Indices) -> Indices:
     rank, still = _rank(_connected(inner, len(cell)), cell)
     rank[~still] = 0
     layer = _connected(inner[:, rank[inner[0]] == rank[inner[1]]], len(cell))
+    from scipy.sparse.csgraph import dijkstra
+
     source = dijkstra(
         _graph(links, len(cell)), directed=False, indices=np.flatnonzero(over_itself), unweighted=True,
         return_predecessors=True, min_only=True,
     )[2]  # fmt: skip
-    layer = np.where(
-        source >= 0, layer[np.maximum(source, 0)], -1
-    )  # −1: a sheet that lies nowhere over itself
+    layer = np.where(source >= 0, layer[np.maximum(source, 0)], -1)  # −1: it lies nowhere over itself
     return _connected(links[:, layer[links[0]] == layer[links[1]]], len(cell))
 
 
@@ -169,29 +293,30 @@ def _rank(sheet: Indices, cell: Indices) -> tuple[Indices, NDArray[np.bool_]]:
     return rank, several
 
 
-def _first_free(sheet: Indices, cell: Indices, shape: tuple[int, ...]) -> Indices:
-    """The slot of each root: sheets, largest first, go into the lowest slot that is free.
+def _first_free(sheet: Indices, count: Indices, touch: Indices) -> Indices:
+    """The slot of each tile's sheet: whole sheets, largest first, go into the lowest slot that is free.
 
-    It must be free in the neighbouring cells, too: neighbours in one slot are then of one sheet.
+    No other that they touch may be in it: neighbours in one slot are then of one sheet.
     """
-    _, first, count = np.unique(sheet, return_index=True, return_counts=True)
-    members = np.split(np.argsort(sheet, kind="stable"), np.cumsum(count)[:-1])
-    slot = np.empty(len(sheet), np.intp)
-    taken: list[NDArray[np.bool_]] = []  # per slot: its cells and their neighbours, in a plane with a margin
-    for k in np.lexsort((first, -count)):
-        i, j = (index + 1 for index in np.unravel_index(cell[members[k]], shape))
-        free = (s for s, plane in enumerate(taken) if not plane[i, j].any())
-        slot[members[k]] = s = next(free, len(taken))
-        if s == len(taken):
-            taken.append(np.zeros((shape[0] + 2, shape[1] + 2), bool))
-        for di, dj in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)):
-            taken[s][i + di, j + dj] = True
-    return slot
+    size = np.bincount(sheet, count, minlength=len(sheet))
+    near: dict[int, set[int]] = {}
+    for a, b in touch.T.tolist():
+        near.setdefault(a, set()).add(b)
+        near.setdefault(b, set()).add(a)
+    slot: dict[int, int] = {}
+    for k in sorted(set(sheet.tolist()), key=lambda k: (-size[k], k)):
+        taken = {slot[other] for other in near.get(k, set()) - {k} if other in slot}
+        slot[k] = next(i for i in range(len(taken) + 1) if i not in taken)
+    return np.array([slot[k] for k in sheet.tolist()], np.intp)
 
 
 def _connected(links: Indices, number: int) -> Indices:
+    from scipy.sparse.csgraph import connected_components  # only damping needs it
+
     return connected_components(_graph(links, number), directed=False)[1]
 
 
-def _graph(links: Indices, number: int) -> coo_array:
+def _graph(links: Indices, number: int) -> Any:
+    from scipy.sparse import coo_array
+
     return coo_array((np.ones(links.shape[1], np.int8), tuple(links)), shape=(number, number))

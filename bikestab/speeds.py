@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.roots import positive_roots, sign_near_zero
-from bikestab.routh import condition_polynomials, conditions
+from bikestab.routh import CONDITIONS, condition_polynomials, conditions
 
 KINDS = ("none", "weave", "capsize", "rest", "unbounded")  # value k of ``lower`` and ``upper``
 NONE, WEAVE, CAPSIZE, REST, UNBOUNDED = range(5)
@@ -40,6 +40,35 @@ class Intervals(NamedTuple):
         return np.count_nonzero(self.upper, axis=-1)
 
 
+class Critical(NamedTuple):
+    """Where each condition is zero, and its sign before: by the conditions' names.
+
+    ``speeds`` [m/s], shape (root, *shape), are the positive speeds at which it changes its sign,
+    ascending, NaN behind the last; ``sign`` (*shape) is that just above V = 0: −1, 1, or 0 if it is
+    zero at every speed.
+    """
+
+    speeds: dict[str, Floats]
+    sign: dict[str, Floats]
+
+
+def critical(table: Floats, names: tuple[str, ...] = CONDITIONS) -> Critical:
+    """The critical speeds and the signs before them of a table (5, 4, *shape)."""
+    polynomials = condition_polynomials(table)
+    return Critical(
+        {name: positive_roots(polynomials[name]) for name in names},
+        {name: sign_near_zero(polynomials[name]) for name in names},
+    )
+
+
+def critical_speeds(table: Floats) -> dict[str, Floats]:
+    """The positive speeds at which each condition changes sign; shape (root, *shape), NaN where none.
+
+    Not every root of hurwitz3 or p0 is an edge of stability, and those of the others never are.
+    """
+    return critical(table).speeds
+
+
 def stable_intervals(table: Floats) -> Intervals:
     """Every interval of stable speeds of a table (5, 4, *shape), exact to rounding.
 
@@ -48,25 +77,19 @@ def stable_intervals(table: Floats) -> Intervals:
     """
     shape = table.shape[2:]
     cells = table.reshape(5, 4, -1)
-    parts = [_intervals(cells[..., i : i + _CHUNK]) for i in range(0, max(cells.shape[-1], 1), _CHUNK)]
+    parts = []
+    for start in range(0, max(cells.shape[-1], 1), _CHUNK):
+        part = cells[..., start : start + _CHUNK]
+        parts.append(intervals_between(part, critical(part, ("p0", "hurwitz3"))))
     fields = [
         joined([list(field)], empty) for field, empty in zip(zip(*parts, strict=True), _EMPTY, strict=True)
     ]
     return Intervals(*(field.reshape(*shape, field.shape[-1]) for field in fields))
 
 
-def critical_speeds(table: Floats) -> dict[str, Floats]:
-    """The positive speeds at which each condition changes sign; shape (root, *shape), NaN where none.
-
-    Not every root of hurwitz3 or p0 is an edge of stability, and those of the others never are.
-    """
-    return {name: positive_roots(poly) for name, poly in condition_polynomials(table).items()}
-
-
-def _intervals(table: Floats) -> Intervals:
-    polynomials = condition_polynomials(table)
-    p0, hurwitz3 = polynomials["p0"], polynomials["hurwitz3"]
-    capsize, weave = positive_roots(p0), positive_roots(hurwitz3)
+def intervals_between(table: Floats, critical: Critical) -> Intervals:
+    """``stable_intervals`` of a table (5, 4, cell) whose critical speeds are known."""
+    capsize, weave = critical.speeds["p0"], critical.speeds["hurwitz3"]
     n = table.shape[-1]
 
     V = np.concatenate([weave, capsize])
@@ -88,8 +111,8 @@ def _intervals(table: Floats) -> Intervals:
     # the others keep their sign throughout a stable stretch, so any speed inside it will do
     crossed = [np.concatenate([rest, np.cumsum(kind_at == k, axis=0)]) % 2 for k in (CAPSIZE, WEAVE)]
     good = np.ones_like(lower_V, dtype=bool)
-    for poly, odd in zip((p0, hurwitz3), crossed, strict=True):
-        good &= sign_near_zero(poly) * (1 - 2 * odd) > 0
+    for name, odd in zip(("p0", "hurwitz3"), crossed, strict=True):
+        good &= critical.sign[name] * (1 - 2 * odd) > 0
     good &= lower_V < upper_V
     inside = np.where(np.isfinite(upper_V), lower_V + 0.5 * (upper_V - lower_V), 2 * lower_V + 1)
     column, stretch = np.nonzero(good.T)
@@ -112,10 +135,11 @@ def joined(blocks: list[list[NDArray]], empty: float) -> NDArray:
     """Blocks (row, column, …, item) of a plane as one array, short ones filled up with ``empty``."""
     most = max((block.shape[-1] for row in blocks for block in row), default=1)
     return np.concatenate(
-        [np.concatenate([_widen(block, most, empty) for block in row], axis=-2) for row in blocks]
+        [np.concatenate([widened(block, most, empty) for block in row], axis=-2) for row in blocks]
     )
 
 
-def _widen(values: NDArray, most: int, empty: float) -> NDArray:
+def widened(values: NDArray, most: int, empty: float) -> NDArray:
+    """The array with its last axis filled up to the length ``most``."""
     missing = most - values.shape[-1]
     return np.concatenate([values, np.full((*values.shape[:-1], missing), empty, values.dtype)], axis=-1)

@@ -224,17 +224,11 @@ def test_only_the_fields_that_are_asked_for(fields, tmp_path):
         assert set(volume.file["VTKHDF/PointData"]) == wanted
 
 
-def test_the_same_config_gives_the_same_bytes(equal, tmp_path):
-    again = run_scan(config_of(EQUAL, tmp_path)).path
-    with h5py.File(equal[0]) as a, h5py.File(again) as b:
-        names = []
-        a.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
-        assert len(names) > 25
-        for name in names:
-            assert a[name][()].tobytes() == b[name][()].tobytes(), name
-            if a[name].chunks:
-                where = (0,) * a[name].ndim
-                assert a[name].id.read_direct_chunk(where) == b[name].id.read_direct_chunk(where), name
+def test_the_same_config_gives_the_same_bytes(equal):
+    path, config = equal
+    before = path.read_bytes()
+    assert run_scan(config, force=True).computed
+    assert path.read_bytes() == before
 
 
 # --- other readers

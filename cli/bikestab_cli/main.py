@@ -69,13 +69,7 @@ def main() -> None:
     except OSError as error:
         _drop_output()
         code = _tell(3, f"could not finish: {error.strerror or error}")
-    except _Unfinished:
-        os._exit(3)  # at a regular exit HDF5 crashes over a file that it could not write
     sys.exit(code)
-
-
-class _Unfinished(Exception):
-    """The error has been told; nothing is left to do."""
 
 
 def _run(args: list[str]) -> int:
@@ -94,13 +88,12 @@ def _run(args: list[str]) -> int:
         return _tell(2, error.format_message(), f"see '{words} --help'")
     except click.ClickException as error:
         return _tell(2, error.format_message())
-    except (click.Abort, KeyboardInterrupt):
-        return _tell(130, "interrupted")
+    except (click.Abort, KeyboardInterrupt) as error:
+        return _tell(130, "interrupted", str(error))
     except InputError as error:
         return _tell(2, str(error))
     except BikestabError as error:
-        _tell(3, str(error))
-        raise _Unfinished from None
+        return _tell(3, str(error))
     except MemoryError:
         return _tell(3, "not enough memory", "take fewer values, or fewer fields")
     return 0

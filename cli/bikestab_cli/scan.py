@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import math
-import signal
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.options import json_option, print_json, warn
+from bikestab_cli.progress import progress
 
 if TYPE_CHECKING:
     from bikestab.config import ScanConfig
-    from bikestab.scan import Progress, ScanResult
+    from bikestab.scan import ScanResult
 
 
 @click.command("scan")
@@ -25,8 +23,23 @@ if TYPE_CHECKING:
     "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a value, e.g. grid.V.num=61."
 )
 @click.option("--force", is_flag=True, help="Replace the output of another config, or compute again.")
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="How many processes compute; by default one for each core, if there is work for them.",
+)
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="Compute on a Dask cluster: tcp://HOST:PORT, or local:N processes. Needs the extra 'cluster'.",
+)
+@click.option("--quiet", is_flag=True, help="Tell nothing of the progress.")
 @json_option
-def command(configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, as_json: bool) -> None:
+def command(
+    configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, jobs: int | None,
+    scheduler: str | None, quiet: bool, as_json: bool,
+) -> None:  # fmt: skip
     """Evaluate grids; write volumes and pictures.
 
     Each YAML config gives in its output folder a volume.h5, the stable region in three dimensions as
@@ -34,18 +47,22 @@ def command(configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, a
 
     'bikestab init' writes a commented config to start from. All configs are read before the first is
     computed. A volume that is there already, made from the same config, is kept and only its
-    pictures are drawn again.
+    pictures are drawn again. A scan that was stopped, however, goes on where it was when the same command
+    is run again.
 
     \b
     Examples:
       bikestab scan configs/quick.yaml
       bikestab scan configs/quick.yaml --set grid.V.num=61 --set output=out/fine
       bikestab scan configs/quick.yaml configs/meijaard2007.yaml --force --json
+      bikestab scan configs/quick.yaml --jobs 2 --quiet
     """
     from bikestab.configfile import load_config
     from bikestab.errors import InputError
-    from bikestab.scan import check_size, run_scan, volume_path
+    from bikestab.scan import check_size, volume_path
 
+    if jobs and scheduler:
+        raise click.UsageError("--jobs is for this machine, --scheduler for a cluster; give one of them")
     loaded: dict[Path, tuple[str, ScanConfig]] = {}
     for name in configs:
         config = load_config(name, overrides)
@@ -58,52 +75,40 @@ def command(configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, a
             problem = f"{config.output} is the output of {loaded[path][0]} too"
             raise InputError(problem, key=("output",), place=name)
         loaded[path] = name, config
-    done = []
-    for name, config in loaded.values():
-        warn(config.machine)
-        start = time.perf_counter()
-        try:
-            with _progress(name, config) as progress:
-                result = run_scan(config, force=force, progress=progress)
-        except InputError as error:
-            place = error.place or name
-            raise InputError(error.problem, key=error.key, hint=error.hint, place=place) from None
-        pictures = _draw(config, result)
-        seconds = time.perf_counter() - start
-        done.append(_summary(name, config, result, pictures))
-        if not as_json:
-            click.echo(_line(name, result, pictures, seconds))
-    if as_json:
-        print_json(done)
-
-
-@contextmanager
-def _progress(name: str, config: ScanConfig) -> Iterator[Progress]:
-    """A bar on a terminal, nothing elsewhere; and Ctrl-C between two tiles.
-
-    Python raises KeyboardInterrupt wherever it is, which may be a place in h5py that drops it.
-    """
-    stops: list[int] = []
-
-    def check() -> None:
-        if stops:
-            raise KeyboardInterrupt
-
-    handler = signal.signal(signal.SIGINT, lambda number, _: stops.append(number))
+    done: list[dict[str, object]] = []
     try:
-        with click.progressbar(
-            length=math.prod(config.grid.shape), label=name, file=sys.stderr, show_eta=True, width=30,
-            hidden=not sys.stderr.isatty(),
-        ) as bar:  # fmt: skip
-
-            def progress(points: int) -> None:
-                check()
-                bar.update(points)
-
-            yield progress
-        check()
+        for name, config in loaded.values():
+            warn(config.machine)
+            start = time.perf_counter()
+            result = _run(name, config, force, jobs, scheduler or "", quiet)
+            pictures = _draw(config, result)
+            seconds = time.perf_counter() - start
+            done.append(_summary(name, config, result, pictures))
+            if not as_json:
+                click.echo(_line(name, result, pictures, seconds))
     finally:
-        signal.signal(signal.SIGINT, handler)
+        if as_json and (done or not sys.exc_info()[0]):
+            print_json(done)
+
+
+def _run(
+    name: str, config: ScanConfig, force: bool, jobs: int | None, scheduler: str, quiet: bool
+) -> ScanResult:
+    from bikestab.errors import InputError
+    from bikestab.scan import run_scan, tiles_path
+
+    try:
+        with progress(name, quiet) as show:
+            return run_scan(config, force=force, jobs=jobs, scheduler=scheduler, progress=show)
+    except InputError as error:
+        place = error.place or name
+        raise InputError(error.problem, key=error.key, hint=error.hint, place=place) from None
+    except KeyboardInterrupt:
+        hint = ""
+        with suppress(OSError):
+            if tiles_path(config).stat().st_size:
+                hint = f"{name}: what is finished is kept; the same command goes on from there"
+        raise KeyboardInterrupt(hint) from None
 
 
 def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:

@@ -1,0 +1,148 @@
+"""Finished tiles on disk until the volume is written: a file that only grows, so a kill loses nothing.
+
+The first line names the scan that the tiles are of. Each record after it carries a checksum; what a kill
+or a full disk left half-written at the end is cut off when the file is opened again.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import struct
+from collections.abc import Mapping
+from io import FileIO
+from pathlib import Path
+from typing import Any, Self
+
+from isal import isal_zlib
+
+from bikestab.errors import InputError, ScanError
+
+try:
+    import fcntl
+except ImportError:  # pragma: no cover  # Windows has no such lock: nobody then hinders a second scan
+    fcntl = None  # type: ignore[assignment]
+
+_MAGIC = b"bikestab tiles 1 "
+_HEAD = struct.Struct("<QIQI")  # number of the tile, lengths of its notes and data, checksum of both
+
+
+class Spool:
+    """The file of the finished tiles of one scan, held by this process alone.
+
+    ``identity`` is what must be the same for old tiles to be used again; those of another scan are
+    dropped if ``replace``. ``notes`` has what was noted with each tile, by its number. Raises InputError
+    where another process has the file, it has another scan's tiles, or it cannot be written.
+    """
+
+    def __init__(self, path: Path, identity: Mapping[str, str], *, replace: bool = False) -> None:
+        self.path = path
+        self.notes: dict[int, Any] = {}
+        self._at: dict[int, tuple[int, int]] = {}  # where each tile's data begin in the file, and end
+        try:
+            self._file = _locked(path)
+        except OSError as error:
+            problem = f"{path} cannot be written ({error.strerror or error})"
+            raise InputError(problem, key=("output",), hint="choose another folder") from None
+        first = _MAGIC + json.dumps(dict(identity), sort_keys=True).encode() + b"\n"
+        try:
+            if not self._read(first, replace):
+                self._file.truncate(0)
+                self._append(first, 0)
+        except BaseException:
+            self.close()
+            raise
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def add(self, number: int, notes: object, data: bytes) -> None:
+        """Keep a finished tile; ``notes`` is anything that JSON can hold. OSError where the disk is full."""
+        text = json.dumps(notes).encode()
+        body = text + data
+        self._append(_HEAD.pack(number, len(text), len(data), isal_zlib.crc32(body)) + body, self._end)
+        self.notes[number], self._at[number] = notes, (self._end - len(data), self._end)
+        if os.fstat(self._file.fileno()).st_nlink == 0:
+            raise ScanError(f"{self.path} was removed while it was in use; nothing is kept")
+
+    def read(self, number: int, part: slice = slice(None)) -> bytes:
+        """The data of a finished tile, or a part of it."""
+        begin, end = self._at[number]
+        start, stop, _ = part.indices(end - begin)
+        self._file.seek(begin + start)
+        return self._file.read(stop - start)
+
+    def close(self) -> None:
+        """Let the file go; others may then use it."""
+        self._file.close()
+
+    def remove(self) -> None:
+        """Delete the file, which still keeps others out until it is closed."""
+        self.path.unlink(missing_ok=True)
+
+    def _append(self, data: bytes, start: int) -> None:
+        rest = memoryview(data)
+        self._file.seek(start)
+        try:
+            while rest:
+                rest = rest[self._file.write(rest) :]
+        except OSError:
+            self._file.truncate(start)
+            raise
+        self._end = start + len(data)
+
+    def _read(self, first: bytes, replace: bool) -> bool:
+        """Take in what is there already; False where there is nothing to keep."""
+        size = os.fstat(self._file.fileno()).st_size
+        line = self._file.readline()
+        if line != first and replace:
+            return False
+        if not line.startswith(_MAGIC) and not _MAGIC.startswith(line):
+            problem = f"{self.path} is no file of bikestab"
+            raise InputError(problem, key=("output",), hint="move it away, or replace it with --force")
+        if not line.endswith(b"\n"):
+            return False
+        if line != first:
+            raise InputError(
+                f"{self.path} has tiles of another scan that was not finished ({_difference(line, first)})",
+                key=("output",),
+                hint="finish that one first, choose another output, or drop them with --force",
+            )
+        self._end = len(line)
+        while (head := self._file.read(_HEAD.size)) and len(head) == _HEAD.size:
+            number, noted, length, checksum = _HEAD.unpack(head)
+            if self._end + _HEAD.size + noted + length > size:
+                break
+            body = self._file.read(noted + length)
+            if isal_zlib.crc32(body) != checksum:
+                break
+            self._end += _HEAD.size + noted + length
+            self.notes[number], self._at[number] = json.loads(body[:noted]), (self._end - length, self._end)
+        self._file.truncate(self._end)
+        return True
+
+
+def _locked(path: Path) -> FileIO:
+    while True:
+        file = FileIO(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+")
+        try:
+            if fcntl:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if path.exists() and os.fstat(file.fileno()).st_ino == path.stat().st_ino:
+                return file  # else the one who had it has just removed it
+        except BlockingIOError:
+            file.close()
+            problem = f"another scan is writing into {path.parent}"
+            hint = "wait for it, or choose another output"
+            raise InputError(problem, key=("output",), hint=hint) from None
+        file.close()
+
+
+def _difference(line: bytes, first: bytes) -> str:
+    """The first thing in which two scans differ, in words."""
+    there, here = (json.loads(text[len(_MAGIC) :]) for text in (line, first))
+    key = next((key for key in here if there.get(key) != here[key]), "")
+    return f"another {key.replace('_', ' ')}"
