@@ -100,15 +100,16 @@ class Plan:
         return (member * n * m * k + i * k for i in range(n * m))
 
     def __getitem__(self, number: int) -> Tile:
+        first = self.place(number)[-3:]
         lam, sigma, V = (
-            self._axes[name][i : i + n]
-            for name, i, n in zip(AXES, self.place(number)[-3:], self.tile, strict=True)
+            self._axes[name][i : i + n] for name, i, n in zip(AXES, first, self.tile, strict=True)
         )
         member = number // prod(self._counts[1:])
         columns = number % self._counts[3] == 0
+        above = 0.0 if columns else float(self._axes["V"][first[-1] - 1])
         config = self.config
         bicycle = config.members[member].bicycle
-        return Tile(bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns)
+        return Tile(bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns, above)
 
     @cached_property
     def _axes(self) -> dict[str, Any]:

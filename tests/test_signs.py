@@ -165,7 +165,7 @@ def test_a_condition_that_is_zero_everywhere_is_violated(name):
 
 
 def test_hurwitz3_that_cancels_exactly():
-    """(s² + a²)(s² + k V s + b²): zero at every speed, while the points' products leave rounding of any sign."""
+    """(s² + a²)(s² + k V s + b²): zero at every speed, while the points' products leave rounding."""
     a2, b2, k = 0.6, 2.6, 1.7
     table = np.zeros((5, 4, 1))
     table[4, 0], table[3, 1], table[2, 0], table[1, 1], table[0, 0] = 1, k, a2 + b2, a2 * k, a2 * b2
