@@ -70,6 +70,13 @@ def test_constant_chunks(tmp_path, value, shape):
     assert max(map(len, packed(values, (4, 4, 4)))) < 64
 
 
+@pytest.mark.parametrize("value", [0.0, 1.0, 2.5, np.nan])
+def test_constant_chunks_of_wider_numbers(tmp_path, value):
+    for dtype in ("f4", "f8"):
+        values = np.full((9, 9, 9), value, dtype)
+        np.testing.assert_array_equal(read_back(tmp_path / f"{dtype}.h5", values, (4, 4, 4)), values)
+
+
 def test_constant_chunks_of_one_size_and_of_another():
     """What is remembered of one is not taken for the other."""
     small, large = (packed(np.ones((n, n), np.uint8), (n, n)) for n in (8, 16))
