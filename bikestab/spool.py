@@ -24,7 +24,8 @@ except ImportError:  # pragma: no cover  # Windows has no such lock: nobody then
     fcntl = None  # type: ignore[assignment]
 
 _MAGIC = b"bikestab tiles 1 "
-_HEAD = struct.Struct("<QIQI")  # number of the tile, lengths of its notes and data, checksum of both
+_HEAD = struct.Struct("<QIQ")  # number of the tile, lengths of its notes and data
+_SUM = struct.Struct("<I")  # checksum of all three
 
 
 class Spool:
@@ -48,7 +49,11 @@ class Spool:
         try:
             if not self._read(first, replace):
                 self._file.truncate(0)
-                self._append(first, 0)
+                try:
+                    self._append(first, 0)
+                except OSError:
+                    self.remove()
+                    raise
         except BaseException:
             self.close()
             raise
@@ -62,8 +67,8 @@ class Spool:
     def add(self, number: int, notes: object, data: bytes) -> None:
         """Keep a finished tile; ``notes`` is anything that JSON can hold. OSError where the disk is full."""
         text = json.dumps(notes).encode()
-        body = text + data
-        self._append(_HEAD.pack(number, len(text), len(data), isal_zlib.crc32(body)) + body, self._end)
+        record = _HEAD.pack(number, len(text), len(data)) + text + data
+        self._append(_SUM.pack(isal_zlib.crc32(record)) + record, self._end)
         self.notes[number], self._at[number] = notes, (self._end - len(data), self._end)
         if os.fstat(self._file.fileno()).st_nlink == 0:
             raise ScanError(f"{self.path} was removed while it was in use; nothing is kept")
@@ -97,7 +102,7 @@ class Spool:
     def _read(self, first: bytes, replace: bool) -> bool:
         """Take in what is there already; False where there is nothing to keep."""
         size = os.fstat(self._file.fileno()).st_size
-        line = self._file.readline()
+        line = self._file.readline(1 << 16)  # someone else's file may have none
         if line != first and replace:
             return False
         if not line.startswith(_MAGIC) and not _MAGIC.startswith(line):
@@ -112,14 +117,17 @@ class Spool:
                 hint="finish that one first, choose another output, or drop them with --force",
             )
         self._end = len(line)
-        while (head := self._file.read(_HEAD.size)) and len(head) == _HEAD.size:
-            number, noted, length, checksum = _HEAD.unpack(head)
-            if self._end + _HEAD.size + noted + length > size:
+        most = size - _SUM.size - _HEAD.size
+        while self._end <= most:
+            (checksum,) = _SUM.unpack(self._file.read(_SUM.size))
+            head = self._file.read(_HEAD.size)
+            number, noted, length = _HEAD.unpack(head)
+            if self._end + noted + length > most:
                 break
             body = self._file.read(noted + length)
-            if isal_zlib.crc32(body) != checksum:
+            if isal_zlib.crc32(body, isal_zlib.crc32(head)) != checksum:
                 break
-            self._end += _HEAD.size + noted + length
+            self._end += _SUM.size + _HEAD.size + noted + length
             self.notes[number], self._at[number] = json.loads(body[:noted]), (self._end - length, self._end)
         self._file.truncate(self._end)
         return True
@@ -143,6 +151,9 @@ def _locked(path: Path) -> FileIO:
 
 def _difference(line: bytes, first: bytes) -> str:
     """The first thing in which two scans differ, in words."""
-    there, here = (json.loads(text[len(_MAGIC) :]) for text in (line, first))
-    key = next((key for key in here if there.get(key) != here[key]), "")
-    return f"another {key.replace('_', ' ')}"
+    try:
+        there, here = (dict(json.loads(text[len(_MAGIC) :])) for text in (line, first))
+    except (TypeError, ValueError):
+        there = here = {}
+    key = next((key for key in here | there if there.get(key) != here.get(key)), "")
+    return f"another {key}" if key else "its first line is damaged"
