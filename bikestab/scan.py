@@ -259,7 +259,7 @@ def _unfinished(path: Path, error: OSError) -> ScanError:
     full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
     problem = "the disk is full" if full else " ".join(str(error).split())[:200]
     kept = "what is finished is kept; the same command goes on from there"
-    hint = kept if path.parent.exists() else "nothing was left behind"
+    hint = kept if path.with_name(path.name + ".tiles").exists() else "nothing was left behind"
     return ScanError(f"{path}: {problem}\n{hint}")
 
 

@@ -31,9 +31,10 @@ _SUM = struct.Struct("<I")  # checksum of all three
 class Spool:
     """The file of the finished tiles of one scan, held by this process alone.
 
-    ``identity`` is what must be the same for old tiles to be used again; those of another scan are
-    dropped if ``replace``. ``notes`` has what was noted with each tile, by its number. Raises InputError
-    where another process has the file, it has another scan's tiles, or it cannot be written.
+    ``identity`` is what must be the same for old tiles to be used again, in the order in which it is told of;
+    the tiles of another scan are dropped if ``replace``. ``notes`` has what was noted with each tile, by its
+    number. Raises InputError where another process has the file, it has another scan's tiles, or it cannot
+    be written.
     """
 
     def __init__(self, path: Path, identity: Mapping[str, str], *, replace: bool = False) -> None:
@@ -45,7 +46,7 @@ class Spool:
         except OSError as error:
             problem = f"{path} cannot be written ({error.strerror or error})"
             raise InputError(problem, key=("output",), hint="choose another folder") from None
-        first = _MAGIC + json.dumps(dict(identity), sort_keys=True).encode() + b"\n"
+        first = _MAGIC + json.dumps(dict(identity)).encode() + b"\n"
         try:
             if not self._read(first, replace):
                 self._file.truncate(0)
