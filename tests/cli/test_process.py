@@ -2,6 +2,7 @@
 
 import os
 import pty
+import re
 import resource
 import shutil
 import signal
@@ -166,11 +167,15 @@ def on_a_terminal(*args):
 
 
 def test_a_terminal_sees_the_progress():
-    Path("a.yaml").write_text(grid(70, 300))
-    code, out, seen = on_a_terminal("scan", "a.yaml")
+    Path("a.yaml").write_text(grid(230, 100, "growth_rate"))
+    code, out, seen = on_a_terminal("scan", "a.yaml", "--jobs", "1")
     assert code == 0
-    assert "a.yaml" in seen
-    assert "100%" in seen
+    lines = seen.split("\r")
+    assert len(lines) > 3
+    for line in lines[1:-1]:
+        pattern = r"a\.yaml: \d+ % of 5\.29 M points, [0-9.]+ [kM] points/s, 0:\d\d left\x1b\[K|\x1b\[K"
+        assert re.fullmatch(pattern, line)
+    assert lines[-1] == "\x1b[K"  # nothing of it stays
     assert out.startswith("a.yaml: out/volume.h5, 1 picture: ")
     assert len(out.splitlines()) == 1
 
@@ -186,7 +191,7 @@ def test_elsewhere_scan_is_quiet():
 
 
 def start_a_long_scan(*args):
-    """A running scan whose file is being written; it would take many seconds."""
+    """A running scan of which some tiles are finished; it would take many seconds."""
     Path("a.yaml").write_text(grid(400, 100, "growth_rate", "conditions"))
     process = subprocess.Popen(
         [BIKESTAB, "scan", "a.yaml", *args],
@@ -195,35 +200,46 @@ def start_a_long_scan(*args):
         text=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # also where a CI ignores it
     )
-    partial = Path("out/volume.h5.partial")
-    while not (partial.exists() and partial.stat().st_size > 100_000):
+    tiles, sizes = Path("out/volume.h5.tiles"), set()
+    while len(sizes) < 2:  # at the second the first tile is whole
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.02)
+        if tiles.exists() and tiles.stat().st_size > 100_000:
+            sizes.add(tiles.stat().st_size)
     return process
 
 
-def test_ctrl_c():
-    process = start_a_long_scan()
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_ctrl_c(jobs):
+    process = start_a_long_scan("--jobs", jobs)
     process.send_signal(signal.SIGINT)
     try:
         out, err = process.communicate(timeout=60)
     finally:
         process.kill()
     assert (process.returncode, out) == (130, "")
-    assert err.strip() == "error: interrupted"
-    assert left_over() == []
+    kept = "a.yaml: what is finished is kept; the same command goes on from there"
+    assert err == f"error: interrupted\n  {kept}\n"
+    assert left_over() == ["out/volume.h5.tiles"]
 
 
 def test_what_kill_leaves_is_no_volume():
-    process = start_a_long_scan()
+    process = start_a_long_scan("--jobs", "1")
     process.kill()
     process.communicate()
-    assert not Path("out/volume.h5").exists()
+    assert left_over() == ["out/volume.h5.tiles"]
     done = run("info", "out")
     assert done.returncode == 2
     assert_short(done.stderr)
     Path("a.yaml").write_text(grid(5, 5))
-    assert run("scan", "a.yaml").returncode == 0
+    done = run("scan", "a.yaml")
+    assert_short(done.stderr)
+    assert (
+        "out/volume.h5.tiles has tiles of another scan that was not finished (another config)" in done.stderr
+    )
+    assert done.returncode == 2
+    assert left_over() == ["out/volume.h5.tiles"]
+    assert run("scan", "a.yaml", "--force").returncode == 0
     assert sorted(left_over()) == ["out/region.png", "out/volume.h5"]
 
 

@@ -6,6 +6,9 @@ from pathlib import Path
 
 import h5py
 import pytest
+from bikestab_cli import progress
+
+from bikestab import plan, workers
 
 CONFIG = """\
 bicycle: dikarev1981
@@ -144,10 +147,19 @@ def test_two_configs_with_one_output(scan):
         ("a.yaml --set grid.lam.num", "is not key=value"),
         ("a.yaml --set output=a.yaml", "a.yaml cannot be made"),
         ("a.yaml --set output=a.yaml/b", "a.yaml/b cannot be made"),
-        ("a.yaml --set grid.V.num=1000000000000", "grid.V.num: the grid 7 × 6 × 1000000000000 needs"),
-        ("a.yaml --set grid.lam.num=100000000000000000000000000000000", "grid.lam.num: the grid 1000"),
+        (
+            "a.yaml --set grid.V.num=1000000000000",
+            "grid.V.num: 1000000000000 values are too many\n  allowed: up to",
+        ),
+        (
+            "a.yaml --set grid.V.num=4000000 --set grid.lam.num=4000000",
+            "grid.lam.num: the grid 4000000 × 6 × 4",
+        ),
+        ("a.yaml --set grid.lam.num=100000000000000000000000000000000", "grid.lam.num: 1000000000000"),
         ("a.yaml --set grid.V.stop=1e308", "grid.V"),
         ("a.yaml --frce", "--force"),
+        ("a.yaml --jobs 0", "--jobs"),
+        ("a.yaml --jobs 2 --scheduler local:2", "give one of them"),
     ],
 )
 def test_a_mistake_is_told_in_three_lines(scan, args, expected):
@@ -184,3 +196,106 @@ def test_a_picture_that_cannot_be_drawn_costs_nothing_else(scan, monkeypatch):
     assert sum("region.png cannot be drawn (ValueError: no such luck)" in text for text in warned) == 2
     assert "out/a/slice_lam_0.2.png" in outputs()
     assert "out/a/region.png" not in outputs()
+
+
+# --- several tiles: 64 tilts, 128 trails, 32 speeds
+
+
+@pytest.fixture
+def tiles(monkeypatch):
+    """Let computing stop with an error at the tiles put in here, by the order in which they are computed."""
+    stops, computed = {}, []
+
+    def compute(tile):
+        computed.append(tile)
+        if len(computed) - 1 in stops:
+            raise stops[len(computed) - 1]
+        return really_compute(tile)
+
+    really_compute = workers.compute
+    monkeypatch.setattr(plan, "_TILE_BYTES", 1)
+    monkeypatch.setattr(workers, "compute", compute)
+    for name in ("a", "b"):
+        Path(f"{name}.yaml").write_text(CONFIG.replace("num: 11", "num: 100"))
+    return stops
+
+
+def test_ctrl_c_says_what_is_kept_and_the_next_run_where_it_goes_on(scan, tiles):
+    tiles[3] = KeyboardInterrupt()
+    code, out, err = scan("a.yaml")
+    assert (code, out) == (130, "")
+    kept = "a.yaml: what is finished is kept; the same command goes on from there"
+    assert err == f"error: interrupted\n  {kept}\n"
+    assert outputs() == ["out/a/volume.h5.tiles"]
+    code, out, err = scan("a.yaml")
+    assert (code, err) == (0, "a.yaml: going on at 96 %\n")
+    assert outputs() == ["out/a/region.png", "out/a/volume.h5"]
+
+
+def test_ctrl_c_before_anything_is_finished_says_no_more(scan, tiles):
+    tiles[0] = KeyboardInterrupt()
+    assert scan("a.yaml") == (130, "", "error: interrupted\n")
+    assert outputs() == []
+
+
+def test_quiet(scan, tiles):
+    tiles[2] = KeyboardInterrupt()
+    scan("a.yaml")
+    code, out, err = scan("a.yaml", "--quiet")
+    assert (code, err) == (0, "")
+    assert len(out.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "told"),
+    [
+        (KeyboardInterrupt(), 130, "error: interrupted\n  b.yaml: what is finished is kept; "),
+        (
+            OSError(28, "No space left on device"),
+            3,
+            "error: out/b/volume.h5: the disk is full\n  what is finished ",
+        ),
+        (MemoryError(), 3, "error: not enough memory\n"),
+    ],
+)
+def test_json_of_what_was_finished_before_a_failure(scan, tiles, error, code, told):
+    tiles[5] = error  # the second of b.yaml
+    got, out, err = scan("a.yaml", "b.yaml", "--json")
+    assert got == code
+    assert err.startswith(told)
+    (summary,) = json.loads(out)
+    assert (summary["config"], summary["computed"]) == ("a.yaml", True)
+    assert outputs() == ["out/a/region.png", "out/a/volume.h5", "out/b/volume.h5.tiles"]
+
+
+def test_json_of_nothing_is_nothing(scan, tiles):
+    """An error alone, as everywhere else."""
+    tiles[0] = MemoryError()
+    assert scan("a.yaml", "--json")[:2] == (3, "")
+
+
+def test_lines_of_what_was_finished_before_a_failure(scan, tiles):
+    tiles[5] = MemoryError()
+    code, out, _ = scan("a.yaml", "b.yaml")
+    assert code == 3
+    assert out.startswith("a.yaml: out/a/volume.h5, 1 picture: ")
+    assert len(out.splitlines()) == 1
+
+
+def test_a_log_gets_a_line_now_and_then(scan, tiles, monkeypatch):
+    monkeypatch.setattr(progress, "LOG", 0.0)
+    code, _, err = scan("a.yaml")
+    assert code == 0
+    lines = err.splitlines()
+    assert [line.split(" of ")[0] for line in lines] == [f"a.yaml: {n} %" for n in (0, 32, 64, 96, 100)]
+    assert lines[0] == "a.yaml: 0 % of 4.2 k points"
+    assert all(" points/s, 0:0" in line and line.endswith(" left") for line in lines[1:])
+
+
+def test_processes(scan, monkeypatch):
+    monkeypatch.setattr(plan, "_TILE_BYTES", 1)
+    volumes = set()
+    for args in (["--jobs", "2"], ["--force", "--jobs", "1"]):
+        assert scan("a.yaml", "--set", "grid.V.num=100", *args)[::2] == (0, "")
+        volumes.add(Path("out/a/volume.h5").read_bytes())
+    assert len(volumes) == 1
