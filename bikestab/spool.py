@@ -69,8 +69,15 @@ class Spool:
         """Keep a finished tile; ``notes`` is anything that JSON can hold. OSError where the disk is full."""
         text = json.dumps(notes).encode()
         record = _HEAD.pack(number, len(text), len(data)) + text + data
-        self._append(_SUM.pack(isal_zlib.crc32(record)) + record, self._end)
-        self.notes[number], self._at[number] = notes, (self._end - len(data), self._end)
+        record = _SUM.pack(isal_zlib.crc32(record)) + record
+        end = self._end + len(record)
+        # before it is written: Ctrl-C takes effect right after that, and the tile is finished then
+        self.notes[number], self._at[number] = notes, (end - len(data), end)
+        try:
+            self._append(record, self._end)
+        except OSError:
+            del self.notes[number], self._at[number]
+            raise
         if os.fstat(self._file.fileno()).st_nlink == 0:
             raise ScanError(f"{self.path} was removed while it was in use; nothing is kept")
 

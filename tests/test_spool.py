@@ -159,6 +159,22 @@ def test_a_full_disk_leaves_the_earlier_tiles_good():
         assert PATH.read_bytes() == whole
 
 
+def test_ctrl_c_right_after_a_write_loses_no_tile():
+    with Spool(PATH, IDENTITY) as spool:
+        write = spool._file.write
+        spool._file = _Full(spool._file, 10_000)
+
+        def interrupted(data):
+            write(data)
+            raise KeyboardInterrupt
+
+        spool._file.write = interrupted
+        with pytest.raises(KeyboardInterrupt):
+            spool.add(2, {**NOTES, "number": 2}, data_of(2))
+        assert list(spool.notes) == [2]
+    assert kept() == [2]
+
+
 def test_a_disk_that_takes_a_few_bytes_at_a_time():
     _, whole = fill()
     PATH.unlink()
