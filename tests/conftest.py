@@ -2,8 +2,30 @@
 
 import pytest
 
+from bikestab import plan, tiles, workers
+
 
 @pytest.fixture
 def in_an_empty_folder(tmp_path, monkeypatch):
     """Make an empty folder the current one."""
     monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def small_tiles(monkeypatch):
+    """Let tiles be as small as can be: 64 tilts, 128 trails, 32 speeds."""
+    monkeypatch.setattr(plan, "_TILE_BYTES", 1)
+
+
+@pytest.fixture
+def computed(monkeypatch):
+    """Give the speeds at which the tiles begin that are computed, as they are."""
+    begins = []
+
+    def count(tile):
+        begins.append(round(float(tile.V[0]), 6))
+        return compute(tile)
+
+    compute = tiles.compute
+    monkeypatch.setattr(workers, "compute", count)
+    return begins

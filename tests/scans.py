@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from bikestab import plan, yamltext
+from bikestab import yamltext
 from bikestab.configfile import parse_config
 
 
@@ -20,11 +20,6 @@ def config_of(shape=(4, 5, 6), output="out", more=""):
         f"  sigma: {{start: 0, stop: 0.15, num: {m}}}\n  V: {{start: 0, stop: 15, num: {k}}}\n"
         f"output: {output}\n{more}"
     )
-
-
-def cut(monkeypatch):
-    """Let tiles be as small as can be: 64 tilts, 128 trails, 32 speeds."""
-    monkeypatch.setattr(plan, "_TILE_BYTES", 1)
 
 
 def files():

@@ -2,43 +2,23 @@
 
 import errno
 import multiprocessing
-import os
 import shutil
 from pathlib import Path
 
 import pytest
 
 from bikestab import scan, tiles, workers, writer
-from bikestab.errors import InputError, ScanError
+from bikestab.errors import ScanError
 from bikestab.plan import Plan
-from bikestab.scan import run_scan, tiles_path
+from bikestab.scan import run_scan
 from bikestab.spool import Spool
-from tests.scans import config_of, cut, files
+from tests.scans import config_of, files
 
-pytestmark = pytest.mark.usefixtures("in_an_empty_folder")
+pytestmark = pytest.mark.usefixtures("in_an_empty_folder", "small_tiles")
 
 SHAPE = (5, 6, 150)  # five tiles once they are cut
 KEPT = ["out/volume.h5.tiles"]
 DONE = ["out/volume.h5"]
-
-
-@pytest.fixture(autouse=True)
-def _small_tiles(monkeypatch):
-    cut(monkeypatch)
-
-
-@pytest.fixture
-def computed(monkeypatch):
-    """The speeds at which the tiles begin that are computed, as they are."""
-    begins = []
-
-    def count(tile):
-        begins.append(round(float(tile.V[0]), 6))
-        return compute(tile)
-
-    compute = tiles.compute
-    monkeypatch.setattr(workers, "compute", count)
-    return begins
 
 
 def config(more="", shape=SHAPE, **options):
@@ -244,93 +224,3 @@ def test_a_removed_output_folder(number):
     assert len(calls) == number + 1
     assert files() == []
     assert run_scan(config()).computed
-
-
-# --- whose tiles they are
-
-
-def test_tiles_of_another_config_are_refused_or_dropped(computed):
-    expected = whole("delta: 1\n")
-    interrupted(3)
-    tiles_before = tiles_path(config()).read_bytes()
-    with pytest.raises(InputError, match=r"tiles of another scan .*\(another config\)") as caught:
-        run_scan(config("delta: 1\n"))
-    assert caught.value.key == ("output",)
-    assert tiles_path(config()).read_bytes() == tiles_before
-    computed.clear()
-    assert run_scan(config("delta: 1\n"), force=True).path.read_bytes() == expected
-    assert len(computed) == 5
-
-
-@pytest.mark.parametrize("name", ["numpy", "isal", "bikestab"])
-def test_tiles_of_other_versions_are_refused(name, monkeypatch):
-    """Another version may give other bytes."""
-    interrupted(3)
-    identity = scan._identity(config())
-    monkeypatch.setattr(scan, "_identity", lambda _: {**identity, f"version of {name}": "9.9"})
-    with pytest.raises(InputError, match=f"another version of {name}"):
-        run_scan(config())
-
-
-def test_force_goes_on_with_its_own_tiles(computed):
-    """So that the same command goes on, also where it has to replace a volume."""
-    old = run_scan(config("delta: 1\n")).path.read_bytes()
-    computed.clear()
-    interrupted(3, force=True)
-    assert files() == [*DONE, *KEPT]
-    assert Path(DONE[0]).read_bytes() == old
-    with pytest.raises(InputError, match="made from another config"):
-        run_scan(config())
-    result = run_scan(config(), force=True)
-    assert len(computed) == 5
-    assert files() == DONE
-    assert result.path.read_bytes() == whole()
-
-
-def test_tiles_beside_a_complete_volume_are_cleaned_up():
-    """A kill between the volume's getting its name and the tiles' removal leaves both."""
-    interrupted(3)
-    kept = tiles_path(config()).read_bytes()
-    path = run_scan(config()).path
-    before = path.stat().st_mtime_ns
-    tiles_path(config()).write_bytes(kept)
-    assert not run_scan(config()).computed
-    assert files() == DONE
-    assert path.stat().st_mtime_ns == before
-
-
-def test_two_scans_at_once():
-    """The second is refused and harms nothing."""
-    refused = []
-
-    def second(done, points):
-        for force in (False, True):
-            with pytest.raises(InputError, match="another scan is writing into out") as caught:
-                run_scan(config(), force=force)
-            refused.append(caught.value.key)
-
-    run_scan(config(), progress=second)
-    assert refused == [("output",)] * 12
-    assert files() == DONE
-
-
-def test_a_file_of_someone_else_in_the_tiles_place():
-    Path("out").mkdir()
-    tiles_path(config()).write_text("mine\n")
-    with pytest.raises(InputError, match="is no file of bikestab"):
-        run_scan(config())
-    assert tiles_path(config()).read_text() == "mine\n"
-    assert run_scan(config(), force=True).computed
-    assert files() == DONE
-
-
-def test_the_folder_is_not_left_open():
-    """Descriptors: a library's user may run thousands of scans."""
-    if not os.path.isdir("/proc/self/fd"):  # noqa: PTH112
-        pytest.skip("no list of descriptors")
-    run_scan(config(), force=True)
-    before = len(list(Path("/proc/self/fd").iterdir()))
-    for _ in range(3):
-        run_scan(config(), force=True)
-        run_scan(config())
-    assert len(list(Path("/proc/self/fd").iterdir())) == before

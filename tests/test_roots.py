@@ -100,6 +100,19 @@ def test_cells_of_different_degree():
     assert x[1] == pytest.approx([np.nan] * 4 + [3, np.nan], nan_ok=True)
 
 
+def test_linear_ones():
+    """In x and in x²: one root where the signs differ, none without a slope or beyond double precision."""
+    c0, c1 = (
+        np.array([-6.0, 6, 6, 0, 0, -6, -1e300, -1e-300, np.nan]),
+        [2.0, -3, 2, 2, 0, 0, 1e-300, 1e300, 1],
+    )
+    expected = np.array([3, 2, *[np.nan] * 7])
+    for c, x in (([c0, c1], expected), ([c0, 0 * c0, c1], np.sqrt(expected)), ([0 * c0, c0, c1], expected)):
+        got = positive_roots(np.array(c)[:, :-1])  # without NaN, which is in every power
+        np.testing.assert_array_equal(got, [x[:-1]])
+    np.testing.assert_array_equal(positive_roots(np.array([c0, c1])), [expected])
+
+
 @pytest.mark.parametrize("shape", [(), (1,), (3,), (2, 3), (0,), (2, 0)])
 @pytest.mark.parametrize("degree", range(1, 7))
 def test_shapes(shape, degree):

@@ -1,4 +1,4 @@
-"""A scan: the same volume from whatever tiles, what is there already, and what is refused."""
+"""A scan: the same volume from whatever tiles, and what is refused before anything is written."""
 
 import os
 import shutil
@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 import pytest
 
-from bikestab import scan, tiles, workers
+from bikestab import plan, scan, tiles
 from bikestab.boundary import AGREEMENT
 from bikestab.config import AXES
 from bikestab.errors import InputError, ScanError
@@ -20,19 +20,17 @@ from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scan import check_size, run_scan
 from bikestab.spectrum import growth_rate
 from bikestab.speeds import critical, critical_speeds, stable_intervals
-from bikestab.volume import Volume
-from tests.scans import config_of, cut, files, load
+from tests.scans import config_of, files, load
 
-pytestmark = pytest.mark.usefixtures("in_an_empty_folder")
+pytestmark = pytest.mark.usefixtures("in_an_empty_folder", "small_tiles")
 
 
 # --- tiles
 
 
 @pytest.mark.parametrize("shape", [(70, 130, 5), (5, 5, 100), (2, 2, 2), (33, 3, 65)])
-def test_tiles_leave_no_trace(shape, monkeypatch):
+def test_tiles_leave_no_trace(shape):
     """The whole grid at once gives the same volume as its tiles do."""
-    cut(monkeypatch)
     config = config_of(shape)
     calls = []
     result = run_scan(config, progress=lambda *call: calls.append(call))
@@ -94,8 +92,7 @@ def test_boundary_holds_every_critical_speed():
         assert sum(file[f"boundary/{name}_edge"][()].sum() for name in CONDITIONS) == ends > 100
 
 
-def test_the_agreement_is_reported(monkeypatch):
-    cut(monkeypatch)
+def test_the_agreement_is_reported():
     result = run_scan(config_of((16, 16, 151)))
     assert 0 < result.agreement.largest <= AGREEMENT
     with h5py.File(result.path) as file:
@@ -120,87 +117,10 @@ def test_a_disagreement_is_an_error(factor, message, at, monkeypatch):
             speeds={name: V * (factor if len(calls) > at else 1) for name, V in exact.speeds.items()}
         )
 
-    cut(monkeypatch)
     monkeypatch.setattr(tiles, "critical", off)
     with pytest.raises(ScanError, match=f"{message}.*please report this with the config"):
         run_scan(config_of((8, 8, 150)))
     assert files() == (["out/volume.h5.tiles"] if at else [])
-
-
-# --- an output that is there already
-
-
-def test_the_same_config_is_kept():
-    path = run_scan(config_of()).path
-    before = path.stat().st_mtime_ns, path.read_bytes()
-    again = run_scan(config_of(), progress=lambda *_: pytest.fail("something was computed"))
-    assert not again.computed
-    assert before == (path.stat().st_mtime_ns, path.read_bytes())
-    forced = run_scan(config_of(), force=True)
-    assert forced.computed
-    assert (again.stable_points, again.points) == (forced.stable_points, 120)
-    assert before[1] == path.read_bytes()
-
-
-def test_nothing_is_computed_for_a_volume_that_is_kept(monkeypatch):
-    run_scan(config_of())
-    monkeypatch.setattr(workers, "compute", None)
-    assert not run_scan(config_of()).computed
-    with pytest.raises(TypeError):
-        run_scan(config_of(), force=True)
-
-
-@pytest.mark.parametrize("more", ["title: another\n", "delta: 1\n", "model: unrefined\n", "# a remark\n"])
-def test_the_output_of_another_config_is_refused(more):
-    path = run_scan(config_of()).path
-    before = path.read_bytes()
-    with pytest.raises(InputError, match="made from another config") as caught:
-        run_scan(config_of(more=more))
-    assert caught.value.key == ("output",)
-    assert "--force" in caught.value.hint
-    assert path.read_bytes() == before
-    assert run_scan(config_of(more=more), force=True).computed
-    assert not run_scan(config_of(more=more)).computed
-
-
-def test_a_bicycles_file_that_has_changed_is_another_config():
-    preset = Path(scan.__file__).with_name("presets") / "dikarev1981.yaml"
-    Path("mine.yaml").write_text(preset.read_text())
-    text = config_of().text.replace("dikarev1981", "mine.yaml")
-    run_scan(load(text))
-    assert not run_scan(load(text)).computed
-    Path("mine.yaml").write_text(preset.read_text().replace("m1: 80", "m1: 81"))
-    with pytest.raises(InputError, match="made from another config"):
-        run_scan(load(text))
-
-
-@pytest.mark.parametrize("content", [b"", b"not HDF5"])
-def test_a_file_that_is_no_volume_is_replaced_with_force_only(content):
-    Path("out").mkdir()
-    Path("out/volume.h5").write_bytes(content)
-    with pytest.raises(InputError, match="exists, and is not an HDF5 file") as caught:
-        run_scan(config_of())
-    assert "--force" in caught.value.hint
-    assert Path("out/volume.h5").read_bytes() == content
-    assert files() == ["out/volume.h5"]
-    assert run_scan(config_of(), force=True).computed
-
-
-def test_an_incomplete_volume_is_told():
-    path = run_scan(config_of()).path
-    with h5py.File(path, "a") as file:
-        file.attrs["complete"] = np.int32(0)
-    with pytest.raises(InputError, match="exists, and is incomplete"):
-        run_scan(config_of())
-
-
-def test_a_volume_that_someone_else_reads_can_be_replaced():
-    path = run_scan(config_of()).path
-    with Volume(path) as volume:
-        run_scan(config_of(more="delta: 1\n"), force=True)
-        assert volume.bicycle.delta == 0
-    with Volume(path) as volume:
-        assert volume.bicycle.delta == 1
 
 
 # --- a disk that is full for a moment
@@ -232,8 +152,9 @@ print("went on" if again[0] else "began anew")
 """
 
 
-def test_a_write_that_failed_once_does_not_give_a_wrong_volume():
+def test_a_write_that_failed_once_does_not_give_a_wrong_volume(monkeypatch):
     pytest.importorskip("resource")
+    monkeypatch.setattr(plan, "_TILE_BYTES", 1 << 24)  # as in the other process
     config = config_of((70, 40, 600), "out", "fields: [growth_rate]\n")
     expected = run_scan(config).path.read_bytes()
     shutil.rmtree("out")
