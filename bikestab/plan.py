@@ -108,7 +108,7 @@ class Plan:
         columns = number % self._counts[3] == 0
         config = self.config
         bicycle = config.members[member].bicycle
-        return Tile(bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns)
+        return Tile(bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns, config.ensemble)
 
     @cached_property
     def _axes(self) -> dict[str, Any]:

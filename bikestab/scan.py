@@ -178,7 +178,7 @@ def _write(
             name: atlas.sheets(plan.cell(number), found.roots[name], found.intervals)
             for name, atlas in atlases[member].items()
         }
-        writer.write_columns(place, found.intervals, surfaces)
+        writer.write_columns(place, found.intervals, surfaces, found.spread)
 
 
 def _columns(spool: Spool, number: int) -> Columns:

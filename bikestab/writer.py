@@ -23,6 +23,7 @@ from bikestab import __version__
 from bikestab.boundary import Agreement
 from bikestab.chunks import packed, places
 from bikestab.config import AXES
+from bikestab.model import Floats
 from bikestab.plan import FIELDS, Plan
 from bikestab.routh import CONDITIONS
 from bikestab.sheets import Sheets
@@ -99,6 +100,8 @@ class VolumeWriter:
         self._attributes()
         for swept in plan.config.axes:
             self._scale(swept.name, swept.values, swept.unit, swept.meaning)
+        if self._lead:
+            self._machines()
         for axis in AXES:
             self._scale(axis, plan.config.grid.values(axis), *_AXIS_TEXT[axis])
         for name in plan.fields:
@@ -130,8 +133,21 @@ class VolumeWriter:
             "config_sha256": config.sha256,
             "complete": np.int32(0),
         }
+        if config.ensemble:
+            attributes["ensemble_samples"] = config.ensemble.samples
         for key, value in attributes.items():
             self.file.attrs[key] = value
+
+    def _machines(self) -> None:
+        """The parameters of every machine of the sweep, which the axes alone need not tell."""
+        rows = [list(member.bicycle.numbers().values()) for member in self.plan.config.members]
+        values = np.array(rows, float).reshape(*self.plan.lead, -1)  # NaN for None
+        self._counter("parameter", values.shape[-1], "number of the machine's parameter")
+        data = self.file.create_dataset("machine", data=values, track_order=True)
+        for i, axis in enumerate([*self._lead, "parameter"]):
+            data.dims[i].attach_scale(self.file[axis])
+        _describe(data, "", "parameters of each machine in SI units, in the order of the attribute 'names'")
+        data.attrs["names"] = _ascii(*self.plan.config.machine.numbers())
 
     def write_fields(self, place: tuple[int, ...], shape: tuple[int, ...], chunks: list[bytes]) -> None:
         """Put a tile's chunks into the fields; ``place`` is its first index, ``shape`` its own."""
@@ -163,16 +179,37 @@ class VolumeWriter:
             self._column(f"boundary/{name}", "root", np.float64, "m s-1", text)
             text = f"whether {name} = 0 is an edge of stability there"
             _flags(self._column(f"boundary/{name}_edge", "root", np.uint8, "1", text), ("no_edge", "edge"))
+        if self.plan.config.ensemble:
+            self._create_spread(self.plan.config.ensemble.quantiles)
+
+    def _create_spread(self, quantiles: list[float]) -> None:
+        self._scale("quantile", np.array(quantiles), "1", "share of the machines with a stable speed")
+        for name, text in (
+            ("probability_somewhere", "share of the ensemble's machines that have a stable speed"),
+            ("probability_unbounded", "share of them that are stable without an upper limit"),
+        ):
+            self._create(name, ("lam", "sigma"), np.float64, self.plan.tile[:2], "1", text)
+        for name in ("V1", "V2"):
+            end = "lower" if name == "V1" else "upper"
+            text = f"quantiles of the {end} end of the widest stable interval, of machines that have one"
+            self._column(f"{name}_quantiles", "quantile", np.float64, "m s-1", text)
 
     def write_columns(
-        self, place: tuple[int, ...], intervals: Intervals, surfaces: dict[str, Sheets]
+        self, place: tuple[int, ...], intervals: Intervals, surfaces: dict[str, Sheets], spread: Floats
     ) -> None:
-        """Put a tile's intervals and boundary surfaces into the file."""
+        """Put a tile's intervals, boundary surfaces and, for an ensemble, their spread into the file."""
         for name, values in intervals._asdict().items():
             self._write_column(name, place, values)
         for name, (V, edge) in surfaces.items():
             self._write_column(f"boundary/{name}", place, V)
             self._write_column(f"boundary/{name}_edge", place, edge)
+        if spread.shape[-1]:
+            V1, V2 = np.split(spread[..., 2:], 2, axis=-1)
+            self._write_column("V1_quantiles", place, V1)
+            self._write_column("V2_quantiles", place, V2)
+            for k, name in enumerate(("probability_somewhere", "probability_unbounded")):
+                (chunk,) = packed(spread[..., k], self._data[name].chunks[-2:])
+                self._data[name].id.write_direct_chunk(place[:-1], chunk)
         self._sink.check()
 
     def finish(self, stable_points: int, agreement: Agreement) -> None:

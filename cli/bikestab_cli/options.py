@@ -95,6 +95,24 @@ def machine_options(function: F) -> F:
     return function
 
 
+def _machine(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> dict[str, float]:
+    values: dict[str, float] = {}
+    for text in texts:
+        name, equals, number = text.partition("=")
+        if not equals:
+            raise click.BadParameter(f"{text!r} is not NAME=VALUE, e.g. delta=1", param=option)
+        try:
+            values[name.strip()] = quantity(number, PURE)
+        except InputError as error:
+            raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
+    return values
+
+
+at_option = click.option(
+    "--at", "machine", multiple=True, metavar="NAME=VALUE", callback=_machine,
+    help="Which machine of a sweep, e.g. --at delta=1; once for each of its axes.",
+)  # fmt: skip
+
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 
 
