@@ -23,7 +23,7 @@ FIELDS: dict[str, tuple[type[np.generic], str, str]] = {  # dtype, unit, meaning
 }
 # ns per point, µs per (λ, σ), per (λ, σ) and sample; on one core
 _COSTS = {"stable": 1, "violated": 1, "growth_rate": 55, "probability": 0}
-_COLUMN, _SAMPLE = 2.0, 3.0
+_COLUMN, _SAMPLE = 2.0, 1.0
 _TILE_BYTES = 1 << 24  # of a tile's fields before compression
 
 

@@ -61,7 +61,7 @@ def draw_slice(
     ax = figure.add_subplot()
     if field == "probability":
         _probability(figure, ax, x, y, _stored(volume, field, fixed, near), volume.samples)
-        _legend(figure, _edges(ax, section, x, y))
+        _legend(figure, _edges(ax, section, x, y, "boundary without the spread"))
     else:
         _growth(figure, ax, x, y, _growth_rate(volume, section, x, y, near))
         _stable_region(figure, ax, section, x, y)
@@ -139,9 +139,8 @@ def _probability(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats,
     image = ax.pcolormesh(x, y, values, vmin=0, vmax=1, cmap="cividis", shading="nearest", rasterized=True)
     bar = figure.colorbar(image, ax=ax)
     bar.set_label(f"probability of stability, {samples} machines")
-    if values.min() < 0.5 < values.max():
-        ax.contour(x, y, values, levels=[0.5], colors="white", linewidths=1.5)
-        bar.ax.axhline(0.5, color="white", lw=1.5)
+    ax.set_xlim(x[0], x[-1])
+    ax.set_ylim(y[0], y[-1])
 
 
 def _stable_region(figure: Figure, ax: Axes, section: Section, x: Floats, y: Floats) -> None:
@@ -163,7 +162,7 @@ def _stable_region(figure: Figure, ax: Axes, section: Section, x: Floats, y: Flo
     _legend(figure, handles)
 
 
-def _edges(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Line2D]:
+def _edges(ax: Axes, section: Section, x: Floats, y: Floats, word: str = "boundary") -> list[Line2D]:
     """Draw the boundary curves; what the legend says of them."""
     handles = []
     X, Y = np.linspace(x[0], x[-1], _SAMPLES), np.linspace(y[0], y[-1], _SAMPLES)
@@ -174,7 +173,7 @@ def _edges(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Line2D]:
         for curve in curves:
             ax.plot(*curve, color="black", lw=1.8, ls=style)
         if curves:
-            handles.append(Line2D([], [], color="black", lw=1.8, ls=style, label=f"{label} boundary"))
+            handles.append(Line2D([], [], color="black", lw=1.8, ls=style, label=f"{label} {word}"))
     return handles
 
 

@@ -123,7 +123,7 @@ class Volume:
             row = self.file["machine"][tuple(self._chosen.values())].tolist()
             names = self.file["machine"].attrs["names"].decode().split()
             numbers = {
-                name: None if value != value else value for name, value in zip(names, row, strict=True)
+                name: None if np.isnan(value) else value for name, value in zip(names, row, strict=True)
             }
         return Bicycle(**numbers, name=self.text("bicycle"), source=self.text("references"))
 

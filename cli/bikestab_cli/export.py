@@ -110,7 +110,7 @@ def _about(volume: Volume) -> dict[str, str]:
 
     bicycle = volume.bicycle
     return {
-        "bicycle": bicycle.name, "model": volume.model, "delta": repr(bicycle.delta),
+        "title": volume.title, "bicycle": bicycle.name, "model": volume.model, "delta": repr(bicycle.delta),
         "source": f"bikestab {__version__}", "kinds": "1 weave, 2 capsize",
     }  # fmt: skip
 

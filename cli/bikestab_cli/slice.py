@@ -18,7 +18,7 @@ from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE, at_optio
 @click.option(
     "--probability",
     is_flag=True,
-    help="Of an ensemble: how probable stability is, in place of the growth rate.",
+    help="Of an ensemble: how probable stability is, not the growth rate.",
 )
 @click.option(
     "-o", "--output", metavar="FILE", help="PNG, PDF or SVG; default slice_AXIS_VALUE.png beside the volume."
