@@ -68,7 +68,7 @@ def test_slice_of_one_machine(scan, bikestab):
     [
         (
             (),
-            "out/a/volume.h5: has several machines, with delta = 0, 2\n  choose one, for example --at delta=0",
+            "has several machines, with delta = 0, 2\n  choose one, for example --at delta=0",
         ),
         (("--at", "delta=1"), "has no delta = 1\n  allowed: 0, 2"),
         (("--at", "delta"), "'delta' is not NAME=VALUE, e.g. delta=1"),
