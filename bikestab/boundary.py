@@ -69,7 +69,7 @@ def _zeros(table: Floats, name: str, root: Floats) -> Agreement:
         return Agreement()
     step = np.minimum(AGREEMENT, 0.5 * root)
     below, above = (condition(table, name, root + side * step) for side in (-1, 1))
-    with np.errstate(invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         between = np.sign(below) * np.sign(above) < 0
         secant = step * np.abs((below + above) / (below - above))
     largest = float(secant[between].max(initial=0))
