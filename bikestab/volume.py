@@ -33,9 +33,15 @@ class Volume:
         if not self.path.is_file():
             raise InputError("there is no such volume", place=place, hint="'bikestab scan CONFIG' writes one")
         try:
+            self.path.open("rb").close()
             self.file = h5py.File(self.path, "r")
-        except OSError:
-            raise InputError("is not an HDF5 file, or a damaged one", place=place) from None
+        except PermissionError as error:
+            raise InputError(f"cannot be read ({error.strerror})", place=place) from None
+        except OSError as error:
+            problem = "is not an HDF5 file, or a damaged one"
+            if "unable to lock" in str(error):
+                problem = "is being written to by another program"
+            raise InputError(problem, place=place) from None
         attributes = self.file.attrs
         if "config_sha256" not in attributes or "lam" not in self.file:
             self.file.close()
