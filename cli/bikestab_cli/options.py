@@ -29,9 +29,16 @@ class Quantity(click.ParamType):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         try:
-            return quantity(value, self.units)
+            number = quantity(value, self.units)
         except InputError as error:
             self.fail(f"{error.problem}; {error.hint}", param, ctx)
+        if str(value).strip().endswith("deg") and math.pi / 4 < number < math.pi / 2:
+            tilt = f"{90 - math.degrees(number):g}deg"
+            click.echo(
+                f"note: --lam is the tilt from the vertical; for a head angle of {value} give {tilt}",
+                err=True,
+            )
+        return number
 
 
 class QuantityRange(Quantity):
