@@ -7,6 +7,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib.metadata import version
 from math import prod
 from pathlib import Path
@@ -141,42 +142,46 @@ def _assemble(plan: Plan, spool: Spool, path: Path) -> ScanResult:
     for note in notes.values():
         agreement = agreement.joined(Agreement(*note["agreement"]))
         stable_points += note["stable_points"]
-    with_columns = [note for note in notes.values() if note["columns"]]
-    most = {
-        name: tuple(max(note["most_roots"][name][k] for note in with_columns) for k in (0, 1))
-        for name in CONDITIONS
-    }
-    atlases = []
-    for member in range(prod(plan.lead)):
-        atlases.append({name: Atlas(name, most[name]) for name in CONDITIONS})
-        for number in plan.of_member(member):
-            columns = _columns(spool, number)
-            for name, atlas in atlases[-1].items():
-                atlas.add(plan.cell(number), columns.roots[name])
-        for atlas in atlases[-1].values():
-            atlas.finish()
+
+    @lru_cache(maxsize=1)  # they are needed twice, but memory does not bear those of every machine
+    def atlases(member: int) -> dict[str, Atlas]:
+        return _atlases(plan, spool, member)
+
+    widths = [atlas.width for member in range(plan.members) for atlas in atlases(member).values()]
     with new_volume(path, plan) as writer:
         writer.create_columns(
-            max(note["intervals"] for note in with_columns),
-            {name: max(each[name].width for each in atlases) for name in CONDITIONS},
+            max(note["intervals"] for note in notes.values() if note["columns"]), max(widths)
         )
         for number in range(len(plan)):
-            _write(writer, plan, spool, number, atlases)
+            _write(writer, plan, spool, number, atlases(plan.member(number)))
         writer.finish(stable_points, agreement)
     return ScanResult(path, True, plan.points, stable_points, agreement)
 
 
-def _write(
-    writer: VolumeWriter, plan: Plan, spool: Spool, number: int, atlases: list[dict[str, Atlas]]
-) -> None:
+def _atlases(plan: Plan, spool: Spool, member: int) -> dict[str, Atlas]:
+    """The sheets of each condition over the (λ, σ) of one machine of the sweep."""
+    tiles = plan.with_columns(member)
+    found = {}
+    for name in CONDITIONS:
+        rising, falling = zip(*(spool.notes[number]["most_roots"][name] for number in tiles), strict=True)
+        found[name] = Atlas(name, (max(rising), max(falling)))
+    for number in tiles:
+        columns = _columns(spool, number)
+        for name, atlas in found.items():
+            atlas.add(plan.cell(number), columns.roots[name])
+    for atlas in found.values():
+        atlas.finish()
+    return found
+
+
+def _write(writer: VolumeWriter, plan: Plan, spool: Spool, number: int, atlases: dict[str, Atlas]) -> None:
     place, columns = plan.place(number), spool.notes[number]["columns"]
     writer.write_fields(place, plan[number].shape, parted(spool.read(number, slice(columns, None))))
     if columns:
         found = _columns(spool, number)
-        member = number * len(atlases) // len(plan)
         surfaces = {
             name: atlas.sheets(plan.cell(number), found.roots[name], found.intervals)
-            for name, atlas in atlases[member].items()
+            for name, atlas in atlases.items()
         }
         writer.write_columns(place, found.intervals, surfaces, found.spread)
 

@@ -161,8 +161,8 @@ class VolumeWriter:
             ids[name].write_direct_chunk(offset, chunk)
         self._sink.check()
 
-    def create_columns(self, intervals: int, widths: dict[str, int]) -> None:
-        """Make room for what depends on (λ, σ) alone: so many intervals, and sheets of each condition."""
+    def create_columns(self, intervals: int, sheets: int) -> None:
+        """Make room for what depends on (λ, σ) alone: so many intervals, and sheets of a condition."""
         self._counter("interval", max(1, intervals), "number of the stable interval")
         for name, text in (
             ("V1", "lower end of each stable speed interval"),
@@ -172,7 +172,7 @@ class VolumeWriter:
         for name in ("lower", "upper"):
             text = f"what happens at the {name} end of each stable interval"
             _flags(self._column(name, "interval", np.uint8, "1", text), KINDS)
-        self._counter("root", max(1, *widths.values()), "number of the sheet of roots")
+        self._counter("root", max(1, sheets), "number of the sheet of roots")
         self.file.create_group("boundary", track_order=True)
         for name in CONDITIONS:
             text = f"every speed at which {name} changes sign, sheet by sheet"
@@ -243,10 +243,10 @@ class VolumeWriter:
         return self._create(name, ("lam", "sigma", last), dtype, chunk, unit, text)
 
     def _write_column(self, name: str, place: tuple[int, ...], values: NDArray) -> None:
-        data = self._data[name]
-        if np.all(np.isnan(values) if np.isnan(data.fillvalue) else values == 0):
+        data, empty = self._data[name], np.nan if values.dtype == float else 0
+        if np.all(np.isnan(values) if np.isnan(empty) else values == 0):
             return  # a chunk that is not there reads as the fill value
-        (chunk,) = packed(widened(values, data.shape[-1], data.fillvalue), data.chunks[-3:])
+        (chunk,) = packed(widened(values, data.shape[-1], empty), data.chunks[-3:])
         data.id.write_direct_chunk((*place[:-1], 0), chunk)
 
     def _scale(self, name: str, values: NDArray, unit: str, text: str) -> None:
