@@ -31,6 +31,10 @@ class Volume:
             self.path = self.path / "volume.h5"
         place = str(path)
         if not self.path.is_file():
+            folder = self.path if self.path.is_dir() else self.path.parent
+            if (folder / "volume.h5.tiles").exists():
+                hint = "'bikestab scan CONFIG' goes on where it was stopped"
+                raise InputError("holds a scan that is not finished", place=place, hint=hint)
             raise InputError("there is no such volume", place=place, hint="'bikestab scan CONFIG' writes one")
         try:
             self.path.open("rb").close()

@@ -368,6 +368,15 @@ def test_volume_keeps_the_damping_and_the_model(tmp_path):
         assert (volume.bicycle.delta, volume.model) == (1.5, "unrefined")
 
 
+def test_a_scan_that_is_not_finished(tmp_path):
+    (tmp_path / "volume.h5.tiles").touch()
+    for path in (tmp_path, tmp_path / "volume.h5"):
+        with pytest.raises(
+            InputError, match="holds a scan that is not finished\n'bikestab scan CONFIG' goes on"
+        ):
+            Volume(path)
+
+
 def set_incomplete(path):
     with h5py.File(path, "a") as file:
         file.attrs["complete"] = np.int32(0)
