@@ -48,8 +48,10 @@ class Agreement(NamedTuple):
         )
 
 
-def check(table: Floats, critical: Critical, mask: NDArray[np.uint8], V: Floats) -> Agreement:
-    """Compare the critical speeds up to V[-1] of a table (5, 4, cell), and its mask (cell, V).
+def check(
+    table: Floats, critical: Critical, mask: NDArray[np.uint8], V: Floats, above: float = 0.0
+) -> Agreement:
+    """Compare the critical speeds of a table (5, 4, cell) in above < V ≤ V[-1], and its mask (cell, V).
 
     A root is as uncertain as the rounding of the condition's terms divided by its slope; where that
     is more than AGREEMENT neither way can tell better. There the two may differ by what the rounding
@@ -58,7 +60,9 @@ def check(table: Floats, critical: Critical, mask: NDArray[np.uint8], V: Floats)
     found = _signs(table, mask, V)
     for name in CONDITIONS:
         for root in critical.speeds[name]:
-            found = found.joined(_zeros(table, name, np.where(root <= V[-1], root, np.nan)))
+            found = found.joined(
+                _zeros(table, name, np.where((root > above) & (root <= V[-1]), root, np.nan))
+            )
     return found
 
 
@@ -71,8 +75,8 @@ def _zeros(table: Floats, name: str, root: Floats) -> Agreement:
     below, above = (condition(table, name, root + side * step) for side in (-1, 1))
     with np.errstate(divide="ignore", invalid="ignore"):
         between = np.sign(below) * np.sign(above) < 0
-        secant = step * np.abs((below + above) / (below - above))
-    largest = float(secant[between].max(initial=0))
+    step, below, above = (x[between] for x in (step, below, above))  # elsewhere they may be equal
+    largest = float((step * np.abs((below + above) / (below - above))).max(initial=0))
     poor = np.flatnonzero((root > 0) & ~between)
     found = Agreement(number, largest)
     return found.joined(_poor(table[..., poor], name, root[poor])) if len(poor) else found

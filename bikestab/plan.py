@@ -108,14 +108,17 @@ class Plan:
         return [(member * n * m + i) * k for i in range(n * m)]
 
     def __getitem__(self, number: int) -> Tile:
+        first = self.place(number)[-3:]
         lam, sigma, V = (
-            self._axes[name][i : i + n]
-            for name, i, n in zip(AXES, self.place(number)[-3:], self.tile, strict=True)
+            self._axes[name][i : i + n] for name, i, n in zip(AXES, first, self.tile, strict=True)
         )
         columns = number % self._counts[3] == 0
+        above = 0.0 if columns else float(self._axes["V"][first[-1] - 1])
         config = self.config
         bicycle = config.members[self.member(number)].bicycle
-        return Tile(bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns, config.ensemble)
+        return Tile(
+            bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns, above, config.ensemble
+        )
 
     @cached_property
     def _axes(self) -> dict[str, Any]:

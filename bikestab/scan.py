@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-import errno
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.metadata import version
 from math import prod
 from pathlib import Path
 
 import numpy as np
 
-from bikestab import __version__
 from bikestab.boundary import Agreement
+from bikestab.cluster import on_cluster, versions
 from bikestab.config import AXES, ScanConfig
-from bikestab.errors import InputError, ScanError
+from bikestab.errors import KEPT, InputError, ScanError
 from bikestab.plan import FIELDS, Plan
 from bikestab.routh import CONDITIONS
 from bikestab.sheets import Atlas
-from bikestab.spool import Spool
+from bikestab.spool import NO_SPACE, Spool, removed
 from bikestab.tiles import Columns, Finished, parted
 from bikestab.units import shown
 from bikestab.volume import Volume, parameters_text
-from bikestab.workers import in_processes, in_turn, on_cluster
+from bikestab.workers import in_processes, in_turn
 from bikestab.writer import VolumeWriter, new_volume
 
 MOST_VALUES = 4_000_000  # of an axis
@@ -87,6 +86,8 @@ def run_scan(
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
+        if error.errno in NO_SPACE:
+            raise _unfinished(path, tiles, error) from None
         raise InputError(
             f"{config.output} cannot be made ({error.strerror})",
             key=("output",),
@@ -109,7 +110,7 @@ def run_scan(
             spool.remove()
             return result
     except OSError as error:
-        raise _unfinished(path, error) from None
+        raise _unfinished(path, tiles, error) from None
 
 
 def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progress: Progress) -> None:
@@ -122,16 +123,17 @@ def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progres
     if jobs is None:
         jobs = min(cores(), int(share * plan.seconds() / _START))
     jobs = min(jobs, len(todo))
-    finished: Iterator[tuple[int, Finished]]
+    finished: Generator[tuple[int, Finished]]
     if scheduler and todo:
         finished = on_cluster(tiles, scheduler)
     else:
         finished = in_processes(tiles, jobs) if jobs > 1 else in_turn(tiles)
-    for number, tile in finished:
-        notes = {**tile.notes, "columns": len(tile.columns)}
-        spool.add(number, notes, tile.columns + tile.chunks)
-        done += prod(plan[number].shape)
-        progress(done, plan.points)
+    with closing(finished):  # at once, whatever happens: there may be processes
+        for number, tile in finished:
+            notes = {**tile.notes, "columns": len(tile.columns)}
+            spool.add(number, notes, tile.columns + tile.chunks)
+            done += prod(plan[number].shape)
+            progress(done, plan.points)
 
 
 def _assemble(plan: Plan, spool: Spool, path: Path) -> ScanResult:
@@ -215,6 +217,9 @@ def check_size(config: ScanConfig) -> None:
         problem = f"{shown(config.output)} is no folder name ({error.strerror})"
         raise InputError(problem, key=("output",)) from None
     there = shutil.disk_usage(folder).free
+    for old in (volume_path(config), tiles_path(config)):  # what an earlier run has of it
+        with suppress(OSError):
+            there += old.stat().st_size
     if needed > there:
         size = " × ".join(str(n) for n in plan.shape)
         raise InputError(
@@ -229,9 +234,7 @@ def _identity(config: ScanConfig) -> dict[str, str]:
     return {
         "config": config.sha256,
         "bicycle": parameters_text(config.machine),
-        "version of bikestab": __version__,
-        "version of numpy": np.__version__,
-        "version of isal": version("isal"),
+        **{f"version of {name}": number for name, number in versions().items()},
     }
 
 
@@ -260,12 +263,11 @@ def _same(path: Path, plan: Plan) -> ScanResult | None:
     )
 
 
-def _unfinished(path: Path, error: OSError) -> ScanError:
-    full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-    problem = "the disk is full" if full else " ".join(str(error).split())[:200]
-    kept = "what is finished is kept; the same command goes on from there"
-    hint = kept if path.parent.exists() else "nothing was left behind"
-    return ScanError(f"{path}: {problem}\n{hint}")
+def _unfinished(path: Path, tiles: Path, error: OSError) -> ScanError:
+    if isinstance(error, FileNotFoundError):
+        return removed(tiles)
+    problem = "the disk is full" if error.errno in NO_SPACE else " ".join(str(error).split())[:200]
+    return ScanError(f"{path}: {problem}\n{KEPT if tiles.exists() else 'no part of it was finished'}")
 
 
 def _keep_heap() -> None:

@@ -6,6 +6,7 @@ or a full disk left half-written at the end is cut off when the file is opened a
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import struct
@@ -24,7 +25,10 @@ except ImportError:  # pragma: no cover  # Windows has no such lock: nobody then
     fcntl = None  # type: ignore[assignment]
 
 _MAGIC = b"bikestab tiles 1 "
-_HEAD = struct.Struct("<QIQI")  # number of the tile, lengths of its notes and data, checksum of both
+_HEAD = struct.Struct("<QIQ")  # number of the tile, lengths of its notes and data
+_SUM = struct.Struct("<I")  # checksum of all three
+NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+_NO_LOCKS = {errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK}  # some network disks
 
 
 class Spool:
@@ -32,7 +36,8 @@ class Spool:
 
     ``identity`` is what must be the same for old tiles to be used again; those of another scan are
     dropped if ``replace``. ``notes`` has what was noted with each tile, by its number. Raises InputError
-    where another process has the file, it has another scan's tiles, or it cannot be written.
+    where another process has the file, it has another scan's tiles, or it cannot be written, and OSError
+    where the disk is full.
     """
 
     def __init__(self, path: Path, identity: Mapping[str, str], *, replace: bool = False) -> None:
@@ -42,13 +47,19 @@ class Spool:
         try:
             self._file = _locked(path)
         except OSError as error:
+            if error.errno in NO_SPACE:
+                raise
             problem = f"{path} cannot be written ({error.strerror or error})"
             raise InputError(problem, key=("output",), hint="choose another folder") from None
         first = _MAGIC + json.dumps(dict(identity), sort_keys=True).encode() + b"\n"
         try:
             if not self._read(first, replace):
                 self._file.truncate(0)
-                self._append(first, 0)
+                try:
+                    self._append(first, 0)
+                except OSError:
+                    self.remove()
+                    raise
         except BaseException:
             self.close()
             raise
@@ -60,13 +71,16 @@ class Spool:
         self.close()
 
     def add(self, number: int, notes: object, data: bytes) -> None:
-        """Keep a finished tile; ``notes`` is anything that JSON can hold. OSError where the disk is full."""
+        """Keep a finished tile; ``notes`` is anything that JSON can hold.
+
+        Raises OSError where the disk is full, and ScanError where the file is not in its place any more.
+        """
         text = json.dumps(notes).encode()
-        body = text + data
-        self._append(_HEAD.pack(number, len(text), len(data), isal_zlib.crc32(body)) + body, self._end)
+        record = _HEAD.pack(number, len(text), len(data)) + text + data
+        self._append(_SUM.pack(isal_zlib.crc32(record)) + record, self._end)
         self.notes[number], self._at[number] = notes, (self._end - len(data), self._end)
-        if os.fstat(self._file.fileno()).st_nlink == 0:
-            raise ScanError(f"{self.path} was removed while it was in use; nothing is kept")
+        if not self.in_place():
+            raise removed(self.path)
 
     def read(self, number: int, part: slice = slice(None)) -> bytes:
         """The data of a finished tile, or a part of it."""
@@ -81,7 +95,12 @@ class Spool:
 
     def remove(self) -> None:
         """Delete the file, which still keeps others out until it is closed."""
-        self.path.unlink(missing_ok=True)
+        if self.in_place():
+            self.path.unlink(missing_ok=True)
+
+    def in_place(self) -> bool:
+        """Whether the file is where it was made, so that it will be found again."""
+        return _is_at(self._file, self.path)
 
     def _append(self, data: bytes, start: int) -> None:
         rest = memoryview(data)
@@ -97,7 +116,7 @@ class Spool:
     def _read(self, first: bytes, replace: bool) -> bool:
         """Take in what is there already; False where there is nothing to keep."""
         size = os.fstat(self._file.fileno()).st_size
-        line = self._file.readline()
+        line = self._file.readline(1 << 16)  # someone else's file may have none
         if line != first and replace:
             return False
         if not line.startswith(_MAGIC) and not _MAGIC.startswith(line):
@@ -112,37 +131,67 @@ class Spool:
                 hint="finish that one first, choose another output, or drop them with --force",
             )
         self._end = len(line)
-        while (head := self._file.read(_HEAD.size)) and len(head) == _HEAD.size:
-            number, noted, length, checksum = _HEAD.unpack(head)
-            if self._end + _HEAD.size + noted + length > size:
+        most = size - _SUM.size - _HEAD.size
+        while self._end <= most:
+            (checksum,) = _SUM.unpack(self._file.read(_SUM.size))
+            head = self._file.read(_HEAD.size)
+            number, noted, length = _HEAD.unpack(head)
+            if self._end + noted + length > most:
                 break
             body = self._file.read(noted + length)
-            if isal_zlib.crc32(body) != checksum:
+            if isal_zlib.crc32(body, isal_zlib.crc32(head)) != checksum:
                 break
-            self._end += _HEAD.size + noted + length
+            self._end += _SUM.size + _HEAD.size + noted + length
             self.notes[number], self._at[number] = json.loads(body[:noted]), (self._end - length, self._end)
         self._file.truncate(self._end)
         return True
+
+
+def removed(path: Path) -> ScanError:
+    """What to say where the file, or its folder, was taken away."""
+    problem = f"{path} was removed while it was in use, or moved"
+    return ScanError(f"{problem}\nif it is put back, the same command goes on from there")
 
 
 def _locked(path: Path) -> FileIO:
     while True:
         file = FileIO(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+")
         try:
-            if fcntl:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if path.exists() and os.fstat(file.fileno()).st_ino == path.stat().st_ino:
+            _lock(file, path)
+            if _is_at(file, path):
                 return file  # else the one who had it has just removed it
-        except BlockingIOError:
+        except BaseException:
             file.close()
-            problem = f"another scan is writing into {path.parent}"
-            hint = "wait for it, or choose another output"
-            raise InputError(problem, key=("output",), hint=hint) from None
+            raise
         file.close()
+
+
+def _lock(file: FileIO, path: Path) -> None:
+    if not fcntl:
+        return
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        problem = f"another scan is writing into {path.parent}"
+        raise InputError(problem, key=("output",), hint="wait for it, or choose another output") from None
+    except OSError as error:
+        if error.errno not in _NO_LOCKS:  # where there are none, nobody hinders a second scan
+            raise
+
+
+def _is_at(file: FileIO, path: Path) -> bool:
+    """Whether a path leads to an open file."""
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), path.stat())
+    except OSError:
+        return False
 
 
 def _difference(line: bytes, first: bytes) -> str:
     """The first thing in which two scans differ, in words."""
-    there, here = (json.loads(text[len(_MAGIC) :]) for text in (line, first))
-    key = next((key for key in here if there.get(key) != here[key]), "")
-    return f"another {key.replace('_', ' ')}"
+    try:
+        there, here = (dict(json.loads(text[len(_MAGIC) :])) for text in (line, first))
+    except (TypeError, ValueError):
+        there = here = {}
+    key = next((key for key in here | there if there.get(key) != here.get(key)), "")
+    return f"another {key}" if key else "its first line is damaged"

@@ -34,7 +34,8 @@ _POINTS = 1 << 14  # evaluated at a time, so that an array of them and its tempo
 class Tile:
     """A part of the grid: λ [rad], σ [1] and V [m/s] of one machine, and what is wanted of it.
 
-    ``columns`` says whether it is the one of its (λ, σ) that also gives what does not depend on V.
+    ``columns`` says whether it is the one of its (λ, σ) that also gives what does not depend on V, and
+    ``above`` [m/s] is the last speed of the tile before, if it is not.
     """
 
     bicycle: Bicycle
@@ -45,6 +46,7 @@ class Tile:
     fields: tuple[str, ...]
     chunk: tuple[int, int, int]
     columns: bool
+    above: float = 0.0
     ensemble: Ensemble | None = None
 
     @property
@@ -103,7 +105,7 @@ def compute(tile: Tile) -> Finished:
     table = whole.reshape(5, 4, -1)
     exact = critical(table)
     mask = violated_between(table, exact, tile.V)
-    agreement = check(table, exact, mask, tile.V)
+    agreement = check(table, exact, mask, tile.V, tile.above)
     if agreement.largest > AGREEMENT:
         raise _disagreement(agreement)
     notes = {"stable_points": int(np.count_nonzero(mask == 0)), "agreement": agreement}

@@ -50,6 +50,7 @@ def new_volume(path: Path, plan: Plan) -> Iterator[VolumeWriter]:
                 yield VolumeWriter(file, plan, sink)
             sink.check()
             os.fsync(sink.fileno())
+            sink.check()
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)

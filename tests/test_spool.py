@@ -1,0 +1,324 @@
+"""Kept tiles: never a wrong one, whatever happened to the file, and never two scans at once."""
+
+import errno
+import json
+import os
+import re
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from bikestab import spool as spools
+from bikestab.errors import InputError, ScanError
+from bikestab.spool import Spool
+
+IDENTITY = {"config": "abc", "bicycle": '{"m1": 80.0}', "version of bikestab": "1.2"}
+NOTES = {"stable_points": 7, "agreement": [3, 1e-14, 0, 0.0, 1], "name": "σ"}
+PATH = Path("volume.h5.tiles")
+
+
+@pytest.fixture(autouse=True)
+def _in_an_empty_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def data_of(number):
+    return bytes([number]) * (5 + 3 * number)
+
+
+def fill(numbers=(2, 0, 5), identity=IDENTITY):
+    """A spool of some tiles, as one that was killed leaves it: where its records end, and its bytes."""
+    with Spool(PATH, identity) as spool:
+        ends = [PATH.stat().st_size]
+        for number in numbers:
+            spool.add(number, {**NOTES, "number": number}, data_of(number))
+            ends.append(PATH.stat().st_size)
+    return ends, PATH.read_bytes()
+
+
+def kept():
+    """What a spool has when it is opened again; every tile of it is right."""
+    with Spool(PATH, IDENTITY) as spool:
+        for number, notes in spool.notes.items():
+            assert notes == {**NOTES, "number": number}
+            assert spool.read(number) == data_of(number)
+        return list(spool.notes)
+
+
+# --- what was put in comes out
+
+
+def test_round_trip():
+    ends, _ = fill()
+    assert kept() == [2, 0, 5]
+    assert PATH.stat().st_size == ends[-1]
+
+
+def test_tiles_can_be_read_while_others_are_added():
+    with Spool(PATH, IDENTITY) as spool:
+        spool.add(1, NOTES, b"one")
+        assert spool.read(1) == b"one"
+        spool.add(2, NOTES, b"")
+        assert (spool.read(1), spool.read(2)) == (b"one", b"")
+        spool.add(3, NOTES, b"three")
+        assert spool.notes[3] == NOTES
+
+
+@pytest.mark.parametrize(
+    "part", [slice(3), slice(3, None), slice(2, 4), slice(0, 0), slice(99), slice(-2, None)]
+)
+def test_parts_of_a_tile(part):
+    fill()
+    with Spool(PATH, IDENTITY) as spool:
+        for number in (0, 2, 5):
+            assert spool.read(number, part) == data_of(number)[part]
+
+
+def test_more_can_be_added_to_what_was_kept():
+    fill((2, 0))
+    with Spool(PATH, IDENTITY) as spool:
+        spool.add(5, {**NOTES, "number": 5}, data_of(5))
+    assert kept() == [2, 0, 5]
+
+
+# --- what a kill, a full disk or a bad one leave
+
+
+def test_a_file_cut_anywhere_keeps_what_was_whole_before():
+    ends, whole = fill()
+    for size in range(len(whole) + 1):
+        PATH.write_bytes(whole[:size])
+        number = sum(end <= size for end in ends[1:])
+        assert kept() == [2, 0, 5][:number]
+        assert PATH.stat().st_size == ends[number]
+
+
+def test_a_cut_file_can_be_filled_up_again():
+    ends, whole = fill()
+    for size in (0, 5, ends[0] - 1, ends[0], ends[1] + 1, ends[2] - 1):
+        PATH.write_bytes(whole[:size])
+        with Spool(PATH, IDENTITY) as spool:
+            for number in (2, 0, 5):
+                if number not in spool.notes:
+                    spool.add(number, {**NOTES, "number": number}, data_of(number))
+        assert PATH.read_bytes() == whole
+
+
+@pytest.mark.parametrize("flip", [1, 0x80, 0xFF])
+def test_a_byte_that_is_wrong_anywhere_gives_no_wrong_tile(flip):
+    """In a record it costs that and those behind; in the first line the file is refused."""
+    ends, whole = fill()
+    for i in range(len(whole)):
+        bad = bytearray(whole)
+        bad[i] ^= flip
+        PATH.write_bytes(bad)
+        if i == ends[0] - 1:  # without its end the first line goes on; where no other one comes, it is half
+            with suppress(InputError):
+                assert kept() == []
+        elif i < ends[0]:
+            with pytest.raises(InputError):
+                Spool(PATH, IDENTITY)
+            assert PATH.read_bytes() == bad
+        else:
+            assert kept() == [2, 0, 5][: sum(end <= i for end in ends[1:])]
+
+
+class _Full:
+    """A file on a disk that has room for some more bytes."""
+
+    def __init__(self, file, room):
+        self.file, self.room = file, room
+
+    def write(self, data):
+        if not self.room:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        written = self.file.write(data[: self.room])
+        self.room -= written
+        return written
+
+    def __getattr__(self, name):
+        return getattr(self.file, name)
+
+
+def test_a_full_disk_leaves_the_earlier_tiles_good():
+    ends, whole = fill()
+    for room in range(ends[3] - ends[2]):
+        PATH.write_bytes(whole[: ends[2]])
+        with Spool(PATH, IDENTITY) as spool:
+            spool._file = _Full(spool._file, room)
+            with pytest.raises(OSError, match="No space"):
+                spool.add(5, {**NOTES, "number": 5}, data_of(5))
+            assert list(spool.notes) == [2, 0]
+            assert spool.read(2) == data_of(2)
+            assert PATH.stat().st_size == ends[2]
+            spool._file.room = 10_000  # there is room again
+            spool.add(5, {**NOTES, "number": 5}, data_of(5))
+        assert PATH.read_bytes() == whole
+
+
+def test_a_disk_that_takes_a_few_bytes_at_a_time():
+    _, whole = fill()
+    PATH.unlink()
+    with Spool(PATH, IDENTITY) as spool:
+        write = spool._file.write
+        spool._file = _Full(spool._file, 10_000)
+        spool._file.write = lambda data: write(data[:7])
+        for number in (2, 0, 5):
+            spool.add(number, {**NOTES, "number": number}, data_of(number))
+    assert PATH.read_bytes() == whole
+
+
+@pytest.mark.parametrize("room", [0, 10])
+def test_a_disk_too_full_for_the_first_line_is_left_as_it_was(room, monkeypatch):
+    locked = spools._locked
+    monkeypatch.setattr(spools, "_locked", lambda path: _Full(locked(path), room))
+    with pytest.raises(OSError, match="No space"):
+        Spool(PATH, IDENTITY)
+    assert not PATH.exists()
+
+
+# --- whose tiles they are
+
+
+@pytest.mark.parametrize("key", IDENTITY)
+def test_the_tiles_of_another_scan_are_refused_with_what_differs(key):
+    _, whole = fill()
+    with pytest.raises(InputError, match=rf"tiles of another scan .*\(another {key}\)") as caught:
+        Spool(PATH, {**IDENTITY, key: "other"})
+    assert caught.value.key == ("output",)
+    assert "--force" in caught.value.hint
+    assert PATH.read_bytes() == whole
+    assert kept() == [2, 0, 5]
+
+
+@pytest.mark.parametrize("other", [{}, {"config": "abc"}, {**IDENTITY, "more": "x"}])
+def test_an_identity_of_other_keys_is_another_one(other):
+    fill(identity=other)
+    with pytest.raises(InputError, match=r"another [a-z]+( of [a-z]+)?\)"):
+        Spool(PATH, IDENTITY)
+
+
+@pytest.mark.parametrize("line", [b"null\n", b"[1]\n", b"{\n", b"\xff\n", b"\n"])
+def test_a_first_line_that_is_damaged_is_refused_unless_replaced(line):
+    PATH.write_bytes(spools._MAGIC + line)
+    with pytest.raises(InputError, match="--force"):
+        Spool(PATH, IDENTITY)
+    with Spool(PATH, IDENTITY, replace=True) as spool:
+        assert not spool.notes
+
+
+def test_replace_drops_the_tiles_of_others_only():
+    fill()
+    with Spool(PATH, IDENTITY, replace=True) as spool:
+        assert list(spool.notes) == [2, 0, 5]
+    with Spool(PATH, {**IDENTITY, "config": "other"}, replace=True) as spool:
+        assert not spool.notes
+        spool.add(1, NOTES, b"x")
+    with pytest.raises(InputError, match="another config"):
+        kept()
+
+
+@pytest.mark.parametrize("content", [b"mine\n", b"\x89HDF\r\n\x1a\n" + bytes(100), b"no line at all", b"\n"])
+def test_a_file_of_someone_else_is_not_touched_unless_replaced(content):
+    PATH.write_bytes(content)
+    with pytest.raises(InputError, match="is no file of bikestab"):
+        Spool(PATH, IDENTITY)
+    assert PATH.read_bytes() == content
+    with Spool(PATH, IDENTITY, replace=True) as spool:
+        spool.add(0, NOTES, b"x")
+        assert spool.read(0) == b"x"
+
+
+# --- one scan at a time
+
+
+def test_a_spool_that_is_open_is_refused():
+    with Spool(PATH, IDENTITY) as spool:
+        spool.add(2, {**NOTES, "number": 2}, data_of(2))
+        for replace in (False, True):
+            with pytest.raises(InputError, match="another scan is writing into") as caught:
+                Spool(PATH, IDENTITY, replace=replace)
+            assert caught.value.key == ("output",)
+    assert kept() == [2]
+
+
+HOLD = """
+import sys
+from pathlib import Path
+from bikestab.spool import Spool
+spool = Spool(Path(sys.argv[1]), {})
+print("held", flush=True)
+sys.stdin.read()
+"""
+
+
+def test_another_process_keeps_it_until_it_ends():
+    process = subprocess.Popen(
+        [sys.executable, "-c", HOLD, str(PATH.absolute())], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+    with process:
+        assert process.stdout.readline() == b"held\n"
+        with pytest.raises(InputError, match="another scan is writing"):
+            Spool(PATH, {})
+        process.kill()
+    Spool(PATH, {}).close()
+
+
+def test_a_removed_file_keeps_nobody_out_once_it_is_closed():
+    with Spool(PATH, IDENTITY) as spool:
+        spool.remove()
+        assert not PATH.exists()
+        spool.remove()  # it may be gone
+    fill()
+    assert kept() == [2, 0, 5]
+
+
+def test_a_file_removed_while_it_was_waited_for_is_opened_anew(monkeypatch):
+    """The one who had it removes it between the other's opening it and locking it."""
+    import fcntl
+
+    taken = []
+
+    def flock(file, how):
+        if not taken:
+            PATH.unlink()
+        taken.append(file)
+        return lock(file, how)
+
+    lock = fcntl.flock
+    monkeypatch.setattr(fcntl, "flock", flock)
+    fill((2,))
+    monkeypatch.undo()
+    os.chdir(PATH.absolute().parent)
+    assert len(taken) == 2
+
+
+# --- the folder
+
+
+@pytest.mark.parametrize("recreated", [False, True])
+def test_a_removed_file_is_noticed_with_the_next_tile(recreated):
+    with Spool(PATH, IDENTITY) as spool:
+        spool.add(0, NOTES, b"x")
+        PATH.unlink()
+        if recreated:
+            PATH.write_bytes(b"")
+        with pytest.raises(ScanError, match=r"volume\.h5\.tiles was removed while it was in use"):
+            spool.add(1, NOTES, b"y")
+
+
+def test_a_place_where_nothing_can_be_written():
+    for path in (Path("none/volume.h5.tiles"), Path()):
+        with pytest.raises(InputError, match=f"{re.escape(str(path))} cannot be written") as caught:
+            Spool(path, IDENTITY)
+        assert caught.value.key == ("output",)
+
+
+def test_the_first_line_is_for_people():
+    fill()
+    line = PATH.read_bytes().split(b"\n", 1)[0].decode()
+    assert line.startswith("bikestab tiles ")
+    assert json.loads(line[line.index("{") :]) == IDENTITY
