@@ -34,14 +34,16 @@ def _compressed(part: NDArray, chunk: tuple[int, ...]) -> bytes:
         whole = np.zeros(chunk, part.dtype)
         whole[tuple(slice(n) for n in part.shape)] = part
         part = whole
-    raw = np.ascontiguousarray(part)
-    if raw.itemsize == 1 and raw.min() == raw.max():
-        return _constant(raw.size, int(raw.flat[0]))
-    if raw.itemsize > 1:  # shuffle: first all first bytes, then all second ones
-        raw = np.ascontiguousarray(raw.reshape(-1).view(np.uint8).reshape(-1, raw.itemsize).T)
-    return isal_zlib.compress(raw, LEVEL)
+    if part.itemsize > 1:  # shuffle: first all first bytes, then all second ones
+        part = np.ascontiguousarray(part).reshape(-1).view(np.uint8).reshape(-1, part.itemsize).T
+        return isal_zlib.compress(part.tobytes(), LEVEL)
+    raw = part.tobytes()
+    constant, packed = _constant(len(raw), raw[0])
+    return packed if raw == constant else isal_zlib.compress(raw, LEVEL)
 
 
 @lru_cache
-def _constant(size: int, value: int) -> bytes:
-    return isal_zlib.compress(bytes([value]) * size, LEVEL)
+def _constant(size: int, value: int) -> tuple[bytes, bytes]:
+    """The bytes of a chunk of one value, and what they are compressed; most chunks of a mask are such."""
+    raw = bytes([value]) * size
+    return raw, isal_zlib.compress(raw, LEVEL)
