@@ -125,7 +125,7 @@ class _Direction:
         self._overlap: list[Indices] = []  # pairs (2, …) of sheets that share a cell,
         self._touch: list[Indices] = []  # of those that share one or have neighbours,
         self._joint: list[Indices] = []  # and of those that continue each other in the next tile
-        self._borders: dict[str, tuple[Floats, Indices]] = {}  # last row of each column, last column
+        self._borders: dict[str, tuple[Floats, Indices]] = {}  # last rows of tiles, last column
 
     def add(self, place: tuple[int, int], V: Floats) -> None:
         sheet, number = self._local(V)
@@ -139,8 +139,10 @@ class _Direction:
         shared = _pairs(sheet, sheet)
         self._overlap.append(shared)
         self._touch += [shared, _pairs(sheet[1:], sheet[:-1]), _pairs(sheet[:, 1:], sheet[:, :-1])]
-        ours = {f"row {place[1]}": (V[-1:], sheet[-1:]), f"column {place[0]}": (V[:, -1:], sheet[:, -1:])}
-        for axis, key, edge in ((0, f"row {place[1]}", np.s_[:1]), (1, f"column {place[0]}", np.s_[:, :1])):
+        if place[1] == 0:
+            self._borders.pop("column", None)  # a new row of tiles: none is before this one
+        ours = {f"row {place[1]}": (V[-1:], sheet[-1:]), "column": (V[:, -1:], sheet[:, -1:])}
+        for axis, key, edge in ((0, f"row {place[1]}", np.s_[:1]), (1, "column", np.s_[:, :1])):
             if key in self._borders:
                 strips = zip(self._borders[key], (V[edge], sheet[edge]), strict=True)
                 strip_V, strip = (_joined(pair, axis) for pair in strips)
@@ -191,7 +193,7 @@ class _Direction:
         """The sheet within the tile of each root, V (λ, σ, root) ascending, −1 for NaN; and their number."""
         there = np.isfinite(V)
         sheet = np.where(there, 0, -1)
-        if self.linked:
+        if self.linked and there.any():
             cell = np.repeat(np.arange(V.shape[0] * V.shape[1]), np.count_nonzero(there, axis=-1).ravel())
             links = np.concatenate([_links(V, axis) for axis in (0, 1)], axis=1)
             sheet[there] = _single_valued(links, cell)
@@ -230,6 +232,8 @@ def _links(V: Floats, axis: int) -> Indices:
     Each is the other's nearest, so a pair born at a fold between two cells takes no root's partner away.
     """
     x, there = _place(V), np.isfinite(V)
+    if not there.any():
+        return _NO_PAIRS
     number = np.cumsum(there.ravel()).reshape(V.shape) - 1
     a, b = ((np.s_[:-1], np.s_[1:]), (np.s_[:, :-1], np.s_[:, 1:]))[axis]
     far = np.abs(x[a][..., :, np.newaxis] - x[b][..., np.newaxis, :])

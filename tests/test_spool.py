@@ -221,7 +221,9 @@ def test_replace_drops_the_tiles_of_others_only():
         kept()
 
 
-@pytest.mark.parametrize("content", [b"mine\n", b"\x89HDF\r\n\x1a\n" + bytes(100), b"no line at all", b"\n"])
+@pytest.mark.parametrize(
+    "content", [b"mine\n" + bytes(5000), b"\x89HDF\r\n\x1a\n" + bytes(100), b"no line at all", b"\n"]
+)
 def test_a_file_of_someone_else_is_not_touched_unless_replaced(content):
     PATH.write_bytes(content)
     with pytest.raises(InputError, match="is no file of bikestab"):
@@ -230,6 +232,7 @@ def test_a_file_of_someone_else_is_not_touched_unless_replaced(content):
     with Spool(PATH, IDENTITY, replace=True) as spool:
         spool.add(0, NOTES, b"x")
         assert spool.read(0) == b"x"
+    assert PATH.stat().st_size < 1000
 
 
 # --- one scan at a time
