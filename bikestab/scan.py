@@ -21,7 +21,7 @@ from bikestab.plan import FIELDS, Plan
 from bikestab.routh import CONDITIONS
 from bikestab.sheets import Atlas
 from bikestab.spool import Spool
-from bikestab.tiles import Columns, Finished, parted
+from bikestab.tiles import Columns, Finished, keep_heap, parted
 from bikestab.units import shown
 from bikestab.volume import Volume, parameters_text
 from bikestab.workers import in_processes, in_turn, on_cluster
@@ -135,7 +135,7 @@ def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progres
 
 def _assemble(plan: Plan, spool: Spool, path: Path) -> ScanResult:
     """Write the volume from its tiles."""
-    _keep_heap()
+    keep_heap()
     notes = spool.notes
     agreement, stable_points = Agreement(), 0
     for note in notes.values():
@@ -261,11 +261,3 @@ def _unfinished(path: Path, error: OSError) -> ScanError:
     kept = "what is finished is kept; the same command goes on from there"
     hint = kept if path.parent.exists() else "nothing was left behind"
     return ScanError(f"{path}: {problem}\n{hint}")
-
-
-def _keep_heap() -> None:
-    """Keep freed memory in the process: a tile's temporaries otherwise return to the system one by one.
-
-    glibc raises its limits for that to the size of the largest mapped block freed so far.
-    """
-    np.empty(1 << 21)
