@@ -62,7 +62,7 @@ class Plan:
     @cached_property
     def chunk(self) -> tuple[int, int, int]:
         """A chunk of a field in the file: a slice across any axis reads one layer of them."""
-        sides = (16, 16, 64) if self.config.ensemble else (32, 32, 64)
+        sides = (16, 16, 64) if self.config.ensemble else (32, 32, 32)
         return tuple(map(min, sides, self.config.grid.shape))  # type: ignore[return-value]  # three of each
 
     @cached_property

@@ -21,7 +21,7 @@ from bikestab.plan import FIELDS, Plan
 from bikestab.routh import CONDITIONS
 from bikestab.sheets import Atlas
 from bikestab.spool import NO_SPACE, Spool, removed
-from bikestab.tiles import Columns, Finished, parted
+from bikestab.tiles import Columns, Finished, keep_heap, parted
 from bikestab.units import shown
 from bikestab.volume import Volume, parameters_text
 from bikestab.workers import in_processes, in_turn
@@ -138,7 +138,7 @@ def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progres
 
 def _assemble(plan: Plan, spool: Spool, path: Path) -> ScanResult:
     """Write the volume from its tiles."""
-    _keep_heap()
+    keep_heap()
     notes = spool.notes
     agreement, stable_points = Agreement(), 0
     for note in notes.values():
@@ -268,11 +268,3 @@ def _unfinished(path: Path, tiles: Path, error: OSError) -> ScanError:
         return removed(tiles)
     problem = "the disk is full" if error.errno in NO_SPACE else " ".join(str(error).split())[:200]
     return ScanError(f"{path}: {problem}\n{KEPT if tiles.exists() else 'no part of it was finished'}")
-
-
-def _keep_heap() -> None:
-    """Keep freed memory in the process: a tile's temporaries otherwise return to the system one by one.
-
-    glibc raises its limits for that to the size of the largest mapped block freed so far.
-    """
-    np.empty(1 << 21)
