@@ -193,7 +193,7 @@ class _Direction:
         """The sheet within the tile of each root, V (λ, σ, root) ascending, −1 for NaN; and their number."""
         there = np.isfinite(V)
         sheet = np.where(there, 0, -1)
-        if self.linked and there.any():
+        if self.linked:
             cell = np.repeat(np.arange(V.shape[0] * V.shape[1]), np.count_nonzero(there, axis=-1).ravel())
             links = np.concatenate([_links(V, axis) for axis in (0, 1)], axis=1)
             sheet[there] = _single_valued(links, cell)

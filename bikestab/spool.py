@@ -34,10 +34,10 @@ _NO_LOCKS = {errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK}  # som
 class Spool:
     """The file of the finished tiles of one scan, held by this process alone.
 
-    ``identity`` is what must be the same for old tiles to be used again; those of another scan are
-    dropped if ``replace``. ``notes`` has what was noted with each tile, by its number. Raises InputError
-    where another process has the file, it has another scan's tiles, or it cannot be written, and OSError
-    where the disk is full.
+    ``identity`` is what must be the same for old tiles to be used again, in the order in which it is told of;
+    the tiles of another scan are dropped if ``replace``. ``notes`` has what was noted with each tile, by its
+    number. Raises InputError where another process has the file, it has another scan's tiles, or it cannot
+    be written, and OSError where the disk is full.
     """
 
     def __init__(self, path: Path, identity: Mapping[str, str], *, replace: bool = False) -> None:
@@ -51,7 +51,7 @@ class Spool:
                 raise
             problem = f"{path} cannot be written ({error.strerror or error})"
             raise InputError(problem, key=("output",), hint="choose another folder") from None
-        first = _MAGIC + json.dumps(dict(identity), sort_keys=True).encode() + b"\n"
+        first = _MAGIC + json.dumps(dict(identity)).encode() + b"\n"
         try:
             if not self._read(first, replace):
                 self._file.truncate(0)

@@ -194,6 +194,12 @@ def test_the_tiles_of_another_scan_are_refused_with_what_differs(key):
     assert kept() == [2, 0, 5]
 
 
+def test_what_is_told_is_the_first_that_differs():
+    fill()
+    with pytest.raises(InputError, match=r"\(another config\)"):
+        Spool(PATH, dict.fromkeys(IDENTITY, "other"))
+
+
 @pytest.mark.parametrize("other", [{}, {"config": "abc"}, {**IDENTITY, "more": "x"}])
 def test_an_identity_of_other_keys_is_another_one(other):
     fill(identity=other)
