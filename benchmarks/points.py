@@ -1,287 +1,190 @@
-"""How long bikestab takes for a grid point, beside what else computes the same, on one thread.
+"""How long bikestab takes for a grid point, beside what else computes the same, in one process.
 
     python benchmarks/points.py [--quick] [--json FILE]
 
-The signs of all methods are compared before anything is timed. Every time is the best of several
-rounds, and every round runs all methods in turn, so that a busy machine slows all of them alike.
-The aims are printed, never asserted: a time on a shared machine is no test.
+The signs of all methods are compared before anything is timed.
 """
 
 from __future__ import annotations
 
-import os
-
-os.environ["OMP_NUM_THREADS"] = "1"  # before numpy loads its linear algebra
-os.environ["OPENBLAS_NUM_THREADS"] = "1"
-os.environ["MKL_NUM_THREADS"] = "1"
-
-import argparse
-import json
-import platform
-import shutil
-import subprocess
-import sys
-import sysconfig
-import time
-from collections.abc import Callable
 from dataclasses import dataclass
-from importlib.metadata import version
-from pathlib import Path
-from typing import Any
+from math import prod
 
+import common
 import numpy as np
 from bicycleparameters.models import Meijaard2007Model
 from bicycleparameters.parameter_sets import Meijaard2007ParameterSet
+from common import BICYCLE, BOX, DELTA, Aim, Report, Table, Task, measure, short
 from numpy.typing import NDArray
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle, preset_text
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.notation import MEIJAARD
-from bikestab.routh import stable
-from bikestab.scan import COLUMNS, SPEEDS, _keep_heap, evaluate
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import stable_intervals
+from bikestab.routh import conditions, violated
+from bikestab.signs import violated_between
+from bikestab.speeds import critical
+from bikestab.tiles import Tile, _field, compute
 from bikestab.units import ANGLE, PURE, quantity
 
-BICYCLE = "meijaard2007"
-DELTA = 1.0  # kg m²/s, the steering's damping in the rows that have it
-EVERY = 16  # of the points for eigvals: as short runs as the others', so as good a chance of a quiet one
+SHAPE = (64, 128)  # λ and σ of a tile, as a large scan has them
+FEW = (16, 128, 256)  # a tile for what takes longer
 MARGINAL = 1e-9  # s⁻¹, growth rates too small to have a sign in every method
-AIMS = {"stable": 300, "growth_rate": 25}  # times faster than eigvals
 
 
-@dataclass
-class Task:
-    """A call to time, the number of points or columns that it works on, and its best time so far."""
+def tile(shape: tuple[int, ...], delta: float, fields: tuple[str, ...]) -> Tile:
+    """A tile that spans the box."""
+    lam, sigma, V = (np.linspace(*BOX[name], n) for name, n in zip(BOX, shape, strict=True))
+    bicycle = Bicycle.preset(BICYCLE).with_delta(delta)
+    return Tile(bicycle, "refined", lam, sigma, V, fields, (32, 32, 32), columns=True)
 
-    name: str
-    run: Callable[[], Any]
-    count: int
-    best: float = float("inf")  # s
 
-    @property
-    def ns(self) -> float:
-        """Nanoseconds for each point or column."""
-        return 1e9 * self.best / self.count
+def masks(t: Tile) -> NDArray[np.uint8]:
+    """``violated`` (cell, V) of a tile and, to be timed as well, ``stable``."""
+    table = characteristic_table(t.bicycle, t.lam[:, np.newaxis], t.sigma).reshape(5, 4, -1)
+    mask = violated_between(table, critical(table), t.V)
+    _field("stable", table, t, mask)
+    return mask
+
+
+def growth(t: Tile) -> NDArray[np.float32]:
+    """``growth_rate`` of a tile."""
+    table = characteristic_table(t.bicycle, t.lam[:, np.newaxis], t.sigma).reshape(5, 4, -1)
+    return _field("growth_rate", table, t, np.empty((len(t.lam) * len(t.sigma), len(t.V)), np.uint8))
 
 
 @dataclass
 class Sample:
-    """A grid in the scan's tiles (one λ, COLUMNS values of σ, SPEEDS values of V) and its matrices."""
+    """Points of a tile: their indices in it, their first-order matrices (point, 4, 4), λ, trail and V."""
 
-    tables: list[NDArray]  # (5, 4, COLUMNS) for each λ
+    at: tuple[NDArray, NDArray, NDArray]
+    matrices: NDArray
+    lam: NDArray
+    c: NDArray
     V: NDArray
-    matrices: NDArray  # (points, 4, 4)
-    model: Meijaard2007Model
-    lam: NDArray  # of every point, as V fastest
-    c: NDArray  # trail [m]
-    v: NDArray
-    some: NDArray  # indices of the points that the slowest methods are timed on
-
-    @property
-    def points(self) -> int:
-        return len(self.matrices)
 
 
-def sample(rows: int, few: int) -> Sample:
-    """λ from 0 to 0.6 rad, σ from 0 to 0.15 and V from 0 to 10 m/s."""
-    bicycle = Bicycle.preset(BICYCLE)
-    lam, sigma = np.linspace(0, 0.6, rows), np.linspace(0, 0.15, COLUMNS)
-    V = np.linspace(0, 10, SPEEDS)
-    A = np.zeros((rows, COLUMNS, SPEEDS, 4, 4))
+def sample(t: Tile, columns: int, speeds: int) -> Sample:
+    n, m, k = t.shape
+    cells = np.linspace(0, n * m - 1, columns).astype(int)
+    V_at = np.linspace(0, k - 1, speeds).astype(int)
+    at_lam, at_sigma = np.divmod(cells, m)
+    A = np.zeros((columns, speeds, 4, 4))
     A[..., 0, 2] = A[..., 1, 3] = 1
-    v = V[:, np.newaxis, np.newaxis]
-    for i, j in np.ndindex(rows, COLUMNS):
-        M, C1, K0, K2 = canonical_matrices(bicycle, lam[i], sigma[j])
-        A[i, j, :, 2:, :2] = -np.linalg.solve(M, bicycle.g * K0 + v**2 * K2)
-        A[i, j, :, 2:, 2:] = -np.linalg.solve(M, v * C1)
+    v = t.V[V_at][:, np.newaxis, np.newaxis]
+    damping = np.diag([0, t.bicycle.delta])
+    for row, i, j in zip(A, at_lam, at_sigma, strict=True):
+        M, C1, K0, K2 = canonical_matrices(t.bicycle, t.lam[i], t.sigma[j])
+        row[:, 2:, :2] = -np.linalg.solve(M, t.bicycle.g * K0 + v**2 * K2)
+        row[:, 2:, 2:] = -np.linalg.solve(M, v * C1 + damping)
+    at = np.repeat(at_lam, speeds), np.repeat(at_sigma, speeds), np.tile(V_at, columns)
+    return Sample(at, A.reshape(-1, 4, 4), t.lam[at[0]], t.sigma[at[1]] * t.bicycle.c, t.V[at[2]])
+
+
+def peer_model() -> Meijaard2007Model:
+    """BicycleParameters' model of the same bicycle."""
     preset = yamltext.parse(preset_text(BICYCLE), BICYCLE).data
     values = {
         key: quantity(preset[key], ANGLE if key == "lam" else PURE) for key in MEIJAARD if key in preset
     }
-    at_lam, at_sigma, at_V = (a.ravel() for a in np.meshgrid(lam, sigma, V, indexing="ij"))
-    points = at_V.size
-    return Sample(
-        tables=[characteristic_table(bicycle, each, sigma) for each in lam],
-        V=V,
-        matrices=A.reshape(-1, 4, 4),
-        model=Meijaard2007Model(Meijaard2007ParameterSet({**values, "v": 1.0}, True)),
-        lam=at_lam,
-        c=at_sigma * bicycle.c,
-        v=at_V,
-        some=np.linspace(0, points - 1, few).astype(int),
-    )
+    return Meijaard2007Model(Meijaard2007ParameterSet({**values, "v": 1.0}, True))
 
 
-def compare(s: Sample) -> str:
-    """Assert that the methods agree on the sample; returns what was found, in words."""
-    mask = np.concatenate([stable(t[..., np.newaxis], s.V).ravel() for t in s.tables])
-    rate = np.concatenate([growth_rate(t[..., np.newaxis], s.V).ravel() for t in s.tables])
+def compare(t: Tile, s: Sample, model: Meijaard2007Model | None, few: slice) -> str:
+    """Assert that the methods agree; returns what was found, in words."""
+    mask, rate = masks(t), growth(t)
+    table = characteristic_table(t.bicycle, t.lam[:, np.newaxis], t.sigma).reshape(5, 4, -1, 1)
+    assert np.array_equal(mask, violated(conditions(table, t.V))), "the roots and the conditions differ"
+    at = mask.reshape(t.shape)[s.at] == 0
     peer = np.linalg.eigvals(s.matrices).real.max(axis=-1)
     clear = np.abs(peer) > MARGINAL
-    assert np.array_equal(mask[clear], peer[clear] < 0), "stable and eigvals differ"
-    assert np.array_equal(np.signbit(rate[clear]), peer[clear] < 0), "growth_rate and eigvals differ"
-    few = s.some[clear[s.some]]
-    other = calc_eigen(s, few).real.max(axis=-1)
-    assert np.array_equal(mask[few], other < 0), "stable and calc_eigen differ"
+    assert np.array_equal(at[clear], peer[clear] < 0), "stable and eigvals differ"
+    assert np.array_equal(np.signbit(rate[s.at])[clear], peer[clear] < 0), "growth_rate and eigvals differ"
+    if model:
+        other = model.calc_eigen(lam=s.lam[few], c=s.c[few], v=s.V[few])[0].real.max(axis=-1)
+        assert np.array_equal(at[few][clear[few]], other[clear[few]] < 0), "stable and calc_eigen differ"
     return (
-        f"All signs agree at {np.count_nonzero(clear)} points, {np.count_nonzero(mask & clear)} of them "
-        f"stable; {np.count_nonzero(~clear)} have a growth rate within ±{MARGINAL:g} 1/s and were left out."
+        f"δ = {t.bicycle.delta:g}: all signs agree at {np.count_nonzero(clear)} points, "
+        f"{np.count_nonzero(at & clear)} of them stable; {np.count_nonzero(~clear)} were left out, "
+        f"with a growth rate within ±{MARGINAL:g} 1/s."
     )
 
 
-def calc_eigen(s: Sample, points: NDArray) -> NDArray:
-    """BicycleParameters' eigenvalues at some points of the sample."""
-    return s.model.calc_eigen(lam=s.lam[points], c=s.c[points], v=s.v[points])[0]
+def own_tasks(delta: float) -> dict[str, Task]:
+    """What bikestab is timed at."""
+    wanted = ("stable", "violated")
+    small = tile(FEW, delta, ("growth_rate",))
+    tasks = {}
+    for speeds in (256, 512):
+        t = tile((*SHAPE, speeds), delta, wanted)
+        name = f"stable + violated, {speeds} speeds"
+        tasks[name] = Task(name, lambda t=t: masks(t), prod(t.shape))
+    name = "the same in a scan"
+    tasks[name] = Task(f"{name}: checked, intervals, compressed", lambda: compute(t), prod(t.shape))
+    tasks["growth_rate"] = Task("growth_rate", lambda: growth(small), prod(small.shape))
+    return tasks
 
 
-def point_tasks(s: Sample) -> dict[str, Task]:
-    """What is timed per grid point."""
-    own = len(s.tables) * COLUMNS * SPEEDS
-    stack = s.matrices[::EVERY].copy()
-    tasks = {
-        "stable": Task(
-            "bikestab: stable + violated", lambda: [evaluate(t, s.V, ["stable"]) for t in s.tables], own
-        ),
-        "growth_rate": Task(
-            "bikestab: growth_rate", lambda: [growth_rate(t[..., np.newaxis], s.V) for t in s.tables], own
-        ),
+def peer_tasks(s: Sample, model: Meijaard2007Model, few: slice) -> dict[str, Task]:
+    """What else is timed."""
+    two = np.empty((2, *SHAPE, 512), np.uint8)
+    source = np.ones_like(two)
+    number = len(s.V[few])
+    return {
         "eigvals": Task(
-            "numpy.linalg.eigvals, 4×4 stack ready made", lambda: np.linalg.eigvals(stack), len(stack)
+            "numpy.linalg.eigvals, 4×4 stack ready made", lambda: np.linalg.eigvals(s.matrices), len(s.V)
         ),
         "calc_eigen": Task(
-            "BicycleParameters Meijaard2007Model.calc_eigen(lam, c, v)",
-            lambda: calc_eigen(s, s.some),
-            len(s.some),
+            "BicycleParameters calc_eigen(lam, c, v)",
+            lambda: model.calc_eigen(lam=s.lam[few], c=s.c[few], v=s.V[few]),
+            number,
         ),
         "calc_eigen_v": Task(
-            "BicycleParameters Meijaard2007Model.calc_eigen(v), one λ and c",
-            lambda: s.model.calc_eigen(v=s.v[s.some]),
-            len(s.some),
+            "BicycleParameters calc_eigen(v), one λ and c", lambda: model.calc_eigen(v=s.V[few]), number
         ),
-    }
-    return tasks
-
-
-def column_tasks(rows: int) -> dict[str, Task]:
-    """What is timed per (λ, σ)."""
-    lam, sigma = np.linspace(0, 0.6, rows)[:, np.newaxis], np.linspace(0, 0.15, 400)
-    tasks = {}
-    for label, delta in (("δ = 0", 0.0), (f"δ = {DELTA:g}", DELTA)):
-        bicycle = Bicycle.preset(BICYCLE).with_delta(delta)
-        table = characteristic_table(bicycle, lam, sigma)
-        count = lam.size * sigma.size
-        tasks[f"characteristic_table, {label}"] = Task(
-            f"characteristic_table, {label}",
-            lambda bicycle=bicycle: characteristic_table(bicycle, lam, sigma),
-            count,
-        )
-        tasks[f"stable_intervals, {label}"] = Task(
-            f"stable_intervals, {label}", lambda table=table: stable_intervals(table), count
-        )
-    return tasks
-
-
-def start_tasks() -> dict[str, Task]:
-    """Whole processes."""
-    command = shutil.which("bikestab", path=sysconfig.get_path("scripts")) or "bikestab"
-    lines = {
-        f"bikestab vrange --bicycle {BICYCLE}": [command, "vrange", "--bicycle", BICYCLE],
-        'python -c "import numpy, click"': [sys.executable, "-c", "import numpy, click"],
-    }
-    return {
-        name: Task(name, lambda line=line: subprocess.run(line, check=True, stdout=subprocess.DEVNULL), 1)
-        for name, line in lines.items()
+        "fill": Task("ndarray.fill of as many bytes", lambda: two.fill(0), two[0].size),
+        "copy": Task("copy of as many bytes", lambda: np.copyto(two, source), two[0].size),
     }
 
 
-def measure(tasks: dict[str, Task], rounds: int, at_least: float) -> None:
-    """Run every task for ``at_least`` seconds in each round, and keep its best single run."""
-    for _ in range(rounds):
-        for task in tasks.values():
-            end = time.perf_counter() + at_least
-            while True:
-                start = time.perf_counter()
-                task.run()
-                now = time.perf_counter()
-                task.best = min(task.best, now - start)
-                if now >= end:
-                    break
+def run(quick: bool) -> Report:
+    """Compare, time, report."""
+    report = Report("Points: ns per grid point, one process")
+    model = peer_model()
+    few = slice(None, None, 64 if quick else 32)
+    samples, own = {}, {}
+    for delta in (0.0, DELTA):
+        t = tile(FEW, delta, ("growth_rate",))
+        samples[delta] = sample(t, 64 if quick else 256, 32)
+        report.parts.append(compare(t, samples[delta], None if delta else model, few))
+        own[delta] = own_tasks(delta)
+    np.empty(1 << 21)  # numpy's freed memory then stays in the process, as in a scan
+    peers = peer_tasks(samples[0.0], model, few)
+    every = [task for tasks in (*own.values(), peers) for task in tasks.values()]
+    measure(every, rounds=1 if quick else 15, at_least=0.0 if quick else 0.03)
+
+    eigvals, calc_eigen = peers["eigvals"].ns, peers["calc_eigen"].ns
+    rows = []
+    for label, tasks in ((f"bikestab, δ = {d:g}: ", own[d]) for d in own):
+        rows += [[label + task.name, *_numbers(task, eigvals, calc_eigen)] for task in tasks.values()]
+    rows += [[task.name, *_numbers(task, eigvals, calc_eigen)] for task in peers.values()]
+    report.parts.append(Table(["", "ns", "eigvals / this", "calc_eigen / this"], rows))
+    for delta, tasks in own.items():
+        for name, by_eigvals, by_peer in (
+            ("stable + violated, 512 speeds", 2000, 20_000),
+            ("growth_rate", 40, 500),
+        ):
+            words, ns = f"{name}, δ = {delta:g}: times faster than", tasks[name].ns
+            report.aims.append(Aim(f"{words} eigvals", by_eigvals, eigvals / ns))
+            report.aims.append(Aim(f"{words} calc_eigen", by_peer, calc_eigen / ns))
+        report.data[f"delta {delta:g}"] = {name: {"ns": task.ns} for name, task in tasks.items()}
+    report.data["peers"] = {name: {"ns": task.ns} for name, task in peers.items()}
+    return report
 
 
-def short(x: float) -> str:
-    """Three digits, without an exponent."""
-    return f"{x:.0f}" if x >= 100 else f"{x:.3g}"
-
-
-def aligned(head: list[str], rows: list[list[str]]) -> str:
-    """A table: the first column to the left, the others to the right."""
-    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
-    lines = [
-        "  ".join([row[0].ljust(widths[0]), *(x.rjust(w) for x, w in zip(row[1:], widths[1:], strict=True))])
-        for row in [head, ["-" * w for w in widths], *rows]
-    ]
-    return "\n".join(lines)
-
-
-def main() -> None:
-    """Compare, time, print."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="a few seconds; shows that it runs, no more")
-    parser.add_argument("--json", metavar="FILE", type=Path, help="also write the results here")
-    options = parser.parse_args()
-    quick = options.quick
-
-    s = sample(rows=2 if quick else 4, few=50 if quick else 200)
-    agreed = compare(s)
-    points, columns, starts = point_tasks(s), column_tasks(25 if quick else 250), start_tasks()
-    _keep_heap()
-    measure(points, rounds=2 if quick else 40, at_least=0.02 if quick else 0.05)
-    measure(columns, rounds=2 if quick else 10, at_least=0.0)
-    measure(starts, rounds=3 if quick else 15, at_least=0.0)
-
-    eigvals, peer = points["eigvals"].ns, points["calc_eigen"].ns
-    ratios = {key: (eigvals / task.ns, peer / task.ns) for key, task in points.items()}
-    shown, bare = starts.values()
-    packages = {name: version(name) for name in ("bikestab", "numpy", "BicycleParameters")}
-    title = f"{platform.machine()}, Python {platform.python_version()}, " + ", ".join(
-        f"{name} {number}" for name, number in packages.items()
-    )
-    results = {
-        "machine": title,
-        "bicycle": BICYCLE,
-        "quick": quick,
-        "points": {
-            key: {"ns": task.ns, "eigvals / this": ratios[key][0], "calc_eigen / this": ratios[key][1]}
-            for key, task in points.items()
-        },
-        "columns": {key: {"ns": task.ns} for key, task in columns.items()},
-        "start": {key: {"s": task.best} for key, task in starts.items()},
-        "start ratio": shown.best / bare.best,
-        "aims": {
-            key: {"aim": aim, "eigvals / this": ratios[key][0], "reached": ratios[key][0] >= aim}
-            for key, aim in AIMS.items()
-        },
-    }
-
-    rows = [
-        [task.name, f"{short(task.ns)} ns", short(ratios[key][0]), short(ratios[key][1])]
-        for key, task in points.items()
-    ]
-    rows += [[f"bikestab: {task.name}", f"{short(task.ns)} ns", "", ""] for task in columns.values()]
-    rows += [[task.name, f"{short(1e3 * task.best)} ms", "", ""] for task in starts.values()]
-    print(f"{title}; bicycle {BICYCLE}, one thread, best times")
-    print(agreed, end="\n\n")
-    print(aligned(["per point, column or process", "time", "eigvals / this", "calc_eigen / this"], rows))
-    print()
-    for key, aim in AIMS.items():
-        verdict = "reached" if ratios[key][0] >= aim else "not reached"
-        print(f"aim: {key} {aim} times faster than eigvals: {verdict}, {short(ratios[key][0])}")
-    print(f"start-up: vrange takes {results['start ratio']:.3g} times as long as importing numpy and click")
-    if options.json:
-        options.json.write_text(json.dumps(results, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+def _numbers(task: Task, eigvals: float, calc_eigen: float) -> list[str]:
+    return [short(task.ns), short(eigvals / task.ns), short(calc_eigen / task.ns)]
 
 
 if __name__ == "__main__":
-    main()
+    common.main(__doc__, {"points": run})

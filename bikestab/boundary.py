@@ -73,7 +73,7 @@ def _zeros(table: Floats, name: str, root: Floats) -> Agreement:
         return Agreement()
     step = np.minimum(AGREEMENT, 0.5 * root)
     below, above = (condition(table, name, root + side * step) for side in (-1, 1))
-    with np.errstate(invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         between = np.sign(below) * np.sign(above) < 0
     step, below, above = (x[between] for x in (step, below, above))  # elsewhere they may be equal
     largest = float((step * np.abs((below + above) / (below - above))).max(initial=0))

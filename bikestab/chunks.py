@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import product
+from math import prod
 
 import numpy as np
 from isal import isal_zlib
@@ -23,23 +24,31 @@ def packed(values: NDArray, chunk: tuple[int, ...]) -> list[bytes]:
 
     A chunk at the border is filled up with zeros, as HDF5 wants it.
     """
+    parts = _parts(values, chunk)
+    if values.itemsize > 1:  # shuffle: first all first bytes, then all second ones
+        each = parts.view(np.uint8).reshape(*parts.shape, values.itemsize).swapaxes(1, 2)
+        return [isal_zlib.compress(np.ascontiguousarray(part), LEVEL) for part in each]
+    same = parts.min(axis=1) == parts.max(axis=1)
     return [
-        _compressed(values[tuple(slice(i, i + n) for i, n in zip(place, chunk, strict=True))], chunk)
-        for place in places(values.shape, chunk)
+        _constant(part.size, int(part[0])) if constant else isal_zlib.compress(part, LEVEL)
+        for part, constant in zip(parts, same, strict=True)
     ]
 
 
-def _compressed(part: NDArray, chunk: tuple[int, ...]) -> bytes:
-    if part.shape != chunk:
-        whole = np.zeros(chunk, part.dtype)
-        whole[tuple(slice(n) for n in part.shape)] = part
-        part = whole
-    raw = np.ascontiguousarray(part)
-    if raw.itemsize == 1 and raw.min() == raw.max():
-        return _constant(raw.size, int(raw.flat[0]))
-    if raw.itemsize > 1:  # shuffle: first all first bytes, then all second ones
-        raw = np.ascontiguousarray(raw.reshape(-1).view(np.uint8).reshape(-1, raw.itemsize).T)
-    return isal_zlib.compress(raw, LEVEL)
+def _parts(values: NDArray, chunk: tuple[int, ...]) -> NDArray:
+    """The chunks of an array one below the other, each a row."""
+    sides = [-(-n // step) for n, step in zip(values.shape, chunk, strict=True)]
+    whole = tuple(n * step for n, step in zip(sides, chunk, strict=True))
+    if whole != values.shape:
+        filled = np.zeros(whole, values.dtype)
+        filled[tuple(slice(n) for n in values.shape)] = values
+        values = filled
+    # what a chunk has of the last axis is copied in one go
+    rows = np.ascontiguousarray(values).view(f"V{chunk[-1] * values.itemsize}")
+    steps = (*chunk[:-1], 1)
+    cut = rows.reshape([n for pair in zip(sides, steps, strict=True) for n in pair])
+    order = [*range(0, cut.ndim, 2), *range(1, cut.ndim, 2)]
+    return np.ascontiguousarray(cut.transpose(order)).view(values.dtype).reshape(prod(sides), prod(chunk))
 
 
 @lru_cache

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+KEPT = "what is finished is kept; the same command goes on from there"
+
 
 class BikestabError(Exception):
     """Root of everything this library raises on purpose."""

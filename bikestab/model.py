@@ -6,12 +6,15 @@ Equation numbers are those of Dikarev, Dikareva and Fufaev (1981); docs/theory.m
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.bicycle import Bicycle
+
+if TYPE_CHECKING:
+    from bikestab.samples import Machines
 
 Floats: TypeAlias = NDArray[np.float64]
 Model = Literal["refined", "unrefined"]
@@ -49,6 +52,7 @@ class Tracked:
     """
 
     __slots__ = ("size", "value")
+    __array_ufunc__ = None  # an array times a Tracked is a Tracked
 
     def __init__(self, value: ArrayLike, size: ArrayLike | None = None) -> None:
         self.value: Floats = np.asarray(value, dtype=float)
@@ -72,10 +76,11 @@ class Tracked:
 
 
 def coefficients(
-    bicycle: Bicycle, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"
+    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"
 ) -> Coefficients:
     """The coefficients a0…a5, b0…b6 of equations (1.5) for arrays of λ [rad] and σ [1].
 
+    ``bicycle`` may be many machines, whose parameters broadcast against λ and σ.
     ``model="unrefined"`` leaves the refinement of the paper's (1.2) out of the gravity terms.
     Source: (1.3), (1.5) and section 2 of the paper, with the OCR's subscripts repaired.
     """
@@ -87,8 +92,8 @@ def coefficients(
 
     c1 = Tracked(np.asarray(sigma) * c) * cos
     d = p.h2 * sin + Tracked(p.l2 - c, p.l2 + c) * cos - c1
-    C1 = Tracked(p.C1 / p.R1 if p.C1 else 0.0)  # C1° and C2°: angular momentum per unit of speed
-    C2 = Tracked(p.C2 / p.R2 if p.C2 else 0.0)
+    C1 = Tracked(p.C1 / (p.R1 + 1 * (p.C1 == 0)))  # C1° and C2°: angular momentum per unit of speed;
+    C2 = Tracked(p.C2 / (p.R2 + 1 * (p.C2 == 0)))  # what does not spin may be a skate with R = 0
     l = Tracked(p.m1 * p.l1) + Tracked(p.m2 * p.l2)  # noqa: E741  # the paper's letter
     h = Tracked(p.m1 * p.h1) + Tracked(p.m2 * p.h2)
     md = p.m2 * d
@@ -121,12 +126,13 @@ def coefficients(
 
 
 def characteristic_table(
-    bicycle: Bicycle, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"
+    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"
 ) -> Floats:
     """The table P[k, j] of s^k V^j for arrays of λ [rad] and σ [1] that broadcast together.
 
     Returns an array of shape (5, 4, *shape). Entries that are nothing but the rounding of terms
     which cancel are exact zeros (see ``NOISE``). The damping is the bicycle's ``delta``.
+    ``bicycle`` may be many machines, whose parameters broadcast against λ and σ.
     Source: (2.1) of the paper, in real time and with ε = 1/V².
     """
     a0, a1, a2, a3, a4, a5, b0, b1, b2, b3, b4, b5, b6 = coefficients(bicycle, lam, sigma, model=model)
@@ -143,7 +149,7 @@ def characteristic_table(
         (0, 2): a5 * b6 - a1 * b2,
         (0, 0): a1 * b3 - a4 * b6,
     }
-    table = np.zeros((5, 4, *np.broadcast_shapes(np.shape(lam), np.shape(sigma))))
+    table = np.zeros((5, 4, *np.broadcast_shapes(np.shape(lam), np.shape(sigma), bicycle.shape)))
     for index, entry in entries.items():
         table[index] = entry.settled()
     return table

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import ceil, prod
@@ -23,7 +22,7 @@ FIELDS: dict[str, tuple[type[np.generic], str, str]] = {  # dtype, unit, meaning
 }
 # ns per point, µs per (λ, σ), per (λ, σ) and sample; on one core
 _COSTS = {"stable": 1, "violated": 1, "growth_rate": 55, "probability": 0}
-_COLUMN, _SAMPLE = 2.0, 3.0
+_COLUMN, _SAMPLE = 2.0, 1.0
 _TILE_BYTES = 1 << 24  # of a tile's fields before compression
 
 
@@ -78,7 +77,7 @@ class Plan:
     @cached_property
     def _counts(self) -> tuple[int, ...]:
         grid = zip(self.config.grid.shape, self.tile, strict=True)
-        return (prod(self.lead), *(ceil(n / step) for n, step in grid))
+        return (self.members, *(ceil(n / step) for n, step in grid))
 
     def __len__(self) -> int:
         return prod(self._counts)
@@ -94,22 +93,32 @@ class Plan:
         i, j = self.place(number)[-3:-1]
         return i, j
 
-    def of_member(self, member: int) -> Iterator[int]:
-        """The numbers of the tiles that give the columns of one machine of the sweep, row by row."""
+    @property
+    def members(self) -> int:
+        """How many machines the sweep has."""
+        return prod(self.lead)
+
+    def member(self, number: int) -> int:
+        """The number of a tile's machine."""
+        return number * self.members // len(self)
+
+    def with_columns(self, member: int) -> list[int]:
+        """The numbers of the tiles that give the columns of one machine, row by row."""
         _, n, m, k = self._counts
-        return (member * n * m * k + i * k for i in range(n * m))
+        return [(member * n * m + i) * k for i in range(n * m)]
 
     def __getitem__(self, number: int) -> Tile:
         first = self.place(number)[-3:]
         lam, sigma, V = (
             self._axes[name][i : i + n] for name, i, n in zip(AXES, first, self.tile, strict=True)
         )
-        member = number // prod(self._counts[1:])
         columns = number % self._counts[3] == 0
         above = 0.0 if columns else float(self._axes["V"][first[-1] - 1])
         config = self.config
-        bicycle = config.members[member].bicycle
-        return Tile(bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns, above)
+        bicycle = config.members[self.member(number)].bicycle
+        return Tile(
+            bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns, above, config.ensemble
+        )
 
     @cached_property
     def _axes(self) -> dict[str, Any]:

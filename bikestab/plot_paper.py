@@ -19,10 +19,11 @@ from bikestab.config import Axis
 from bikestab.mesh import Mesh
 from bikestab.model import Floats, Model
 from bikestab.paper import LAM, SIGMA, V
-from bikestab.plot import IN_PLANE, SYMBOLS, Section, edge_curves, zero_curves
+from bikestab.plot import SYMBOLS
 from bikestab.plot_axes import HALO, LABELS, label_axes
 from bikestab.plot_region import draw_mesh
 from bikestab.routh import CONDITIONS, conditions
+from bikestab.section import IN_PLANE, Section, edge_curves, zero_curves
 
 ENDS: dict[Axis, tuple[float, float]] = {"lam": LAM, "sigma": SIGMA, "V": V}
 FAMILIES: dict[Axis, tuple[float, ...]] = {

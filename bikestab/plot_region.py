@@ -37,7 +37,7 @@ def draw_region(volume: Volume) -> Figure:
     if handles := draw_mesh(ax, mesh, box):
         figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False)
     bicycle = volume.bicycle
-    heading = f"{volume.text('title')}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
+    heading = f"{volume.title}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
     ax.set_title(heading, fontsize=10)
     return figure
 

@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-import errno
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
+from contextlib import closing, suppress
 from dataclasses import dataclass
-from importlib.metadata import version
+from functools import lru_cache
 from math import prod
 from pathlib import Path
 
 import numpy as np
 
-from bikestab import __version__
 from bikestab.boundary import Agreement
+from bikestab.cluster import on_cluster, versions
 from bikestab.config import AXES, ScanConfig
-from bikestab.errors import InputError, ScanError
+from bikestab.errors import KEPT, InputError, ScanError
 from bikestab.plan import FIELDS, Plan
 from bikestab.routh import CONDITIONS
 from bikestab.sheets import Atlas
-from bikestab.spool import Spool
-from bikestab.tiles import Columns, Finished, parted
+from bikestab.spool import NO_SPACE, Spool, removed
+from bikestab.tiles import Columns, Finished, keep_heap, parted
 from bikestab.units import shown
 from bikestab.volume import Volume, parameters_text
-from bikestab.workers import in_processes, in_turn, on_cluster
+from bikestab.workers import in_processes, in_turn
 from bikestab.writer import VolumeWriter, new_volume
 
 MOST_VALUES = 4_000_000  # of an axis
@@ -86,6 +86,8 @@ def run_scan(
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
+        if error.errno in NO_SPACE:
+            raise _unfinished(path, tiles, error) from None
         raise InputError(
             f"{config.output} cannot be made ({error.strerror})",
             key=("output",),
@@ -108,7 +110,7 @@ def run_scan(
             spool.remove()
             return result
     except OSError as error:
-        raise _unfinished(path, error) from None
+        raise _unfinished(path, tiles, error) from None
 
 
 def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progress: Progress) -> None:
@@ -121,64 +123,69 @@ def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progres
     if jobs is None:
         jobs = min(cores(), int(share * plan.seconds() / _START))
     jobs = min(jobs, len(todo))
-    finished: Iterator[tuple[int, Finished]]
+    finished: Generator[tuple[int, Finished]]
     if scheduler and todo:
         finished = on_cluster(tiles, scheduler)
     else:
         finished = in_processes(tiles, jobs) if jobs > 1 else in_turn(tiles)
-    for number, tile in finished:
-        notes = {**tile.notes, "columns": len(tile.columns)}
-        spool.add(number, notes, tile.columns + tile.chunks)
-        done += prod(plan[number].shape)
-        progress(done, plan.points)
+    with closing(finished):  # at once, whatever happens: there may be processes
+        for number, tile in finished:
+            notes = {**tile.notes, "columns": len(tile.columns)}
+            spool.add(number, notes, tile.columns + tile.chunks)
+            done += prod(plan[number].shape)
+            progress(done, plan.points)
 
 
 def _assemble(plan: Plan, spool: Spool, path: Path) -> ScanResult:
     """Write the volume from its tiles."""
-    _keep_heap()
+    keep_heap()
     notes = spool.notes
     agreement, stable_points = Agreement(), 0
     for note in notes.values():
         agreement = agreement.joined(Agreement(*note["agreement"]))
         stable_points += note["stable_points"]
-    with_columns = [note for note in notes.values() if note["columns"]]
-    most = {
-        name: tuple(max(note["most_roots"][name][k] for note in with_columns) for k in (0, 1))
-        for name in CONDITIONS
-    }
-    atlases = []
-    for member in range(prod(plan.lead)):
-        atlases.append({name: Atlas(name, most[name]) for name in CONDITIONS})
-        for number in plan.of_member(member):
-            columns = _columns(spool, number)
-            for name, atlas in atlases[-1].items():
-                atlas.add(plan.cell(number), columns.roots[name])
-        for atlas in atlases[-1].values():
-            atlas.finish()
+
+    @lru_cache(maxsize=1)  # they are needed twice, but memory does not bear those of every machine
+    def atlases(member: int) -> dict[str, Atlas]:
+        return _atlases(plan, spool, member)
+
+    widths = [atlas.width for member in range(plan.members) for atlas in atlases(member).values()]
     with new_volume(path, plan) as writer:
         writer.create_columns(
-            max(note["intervals"] for note in with_columns),
-            {name: max(each[name].width for each in atlases) for name in CONDITIONS},
+            max(note["intervals"] for note in notes.values() if note["columns"]), max(widths)
         )
         for number in range(len(plan)):
-            _write(writer, plan, spool, number, atlases)
+            _write(writer, plan, spool, number, atlases(plan.member(number)))
         writer.finish(stable_points, agreement)
     return ScanResult(path, True, plan.points, stable_points, agreement)
 
 
-def _write(
-    writer: VolumeWriter, plan: Plan, spool: Spool, number: int, atlases: list[dict[str, Atlas]]
-) -> None:
+def _atlases(plan: Plan, spool: Spool, member: int) -> dict[str, Atlas]:
+    """The sheets of each condition over the (λ, σ) of one machine of the sweep."""
+    tiles = plan.with_columns(member)
+    found = {}
+    for name in CONDITIONS:
+        rising, falling = zip(*(spool.notes[number]["most_roots"][name] for number in tiles), strict=True)
+        found[name] = Atlas(name, (max(rising), max(falling)))
+    for number in tiles:
+        columns = _columns(spool, number)
+        for name, atlas in found.items():
+            atlas.add(plan.cell(number), columns.roots[name])
+    for atlas in found.values():
+        atlas.finish()
+    return found
+
+
+def _write(writer: VolumeWriter, plan: Plan, spool: Spool, number: int, atlases: dict[str, Atlas]) -> None:
     place, columns = plan.place(number), spool.notes[number]["columns"]
     writer.write_fields(place, plan[number].shape, parted(spool.read(number, slice(columns, None))))
     if columns:
         found = _columns(spool, number)
-        member = number * len(atlases) // len(plan)
         surfaces = {
             name: atlas.sheets(plan.cell(number), found.roots[name], found.intervals)
-            for name, atlas in atlases[member].items()
+            for name, atlas in atlases.items()
         }
-        writer.write_columns(place, found.intervals, surfaces)
+        writer.write_columns(place, found.intervals, surfaces, found.spread)
 
 
 def _columns(spool: Spool, number: int) -> Columns:
@@ -210,6 +217,9 @@ def check_size(config: ScanConfig) -> None:
         problem = f"{shown(config.output)} is no folder name ({error.strerror})"
         raise InputError(problem, key=("output",)) from None
     there = shutil.disk_usage(folder).free
+    for old in (volume_path(config), tiles_path(config)):  # what an earlier run has of it
+        with suppress(OSError):
+            there += old.stat().st_size
     if needed > there:
         size = " × ".join(str(n) for n in plan.shape)
         raise InputError(
@@ -224,9 +234,7 @@ def _identity(config: ScanConfig) -> dict[str, str]:
     return {
         "config": config.sha256,
         "bicycle": parameters_text(config.machine),
-        "version of bikestab": __version__,
-        "version of numpy": np.__version__,
-        "version of isal": version("isal"),
+        **{f"version of {name}": number for name, number in versions().items()},
     }
 
 
@@ -255,17 +263,8 @@ def _same(path: Path, plan: Plan) -> ScanResult | None:
     )
 
 
-def _unfinished(path: Path, error: OSError) -> ScanError:
-    full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-    problem = "the disk is full" if full else " ".join(str(error).split())[:200]
-    kept = "what is finished is kept; the same command goes on from there"
-    hint = kept if path.with_name(path.name + ".tiles").exists() else "nothing was left behind"
-    return ScanError(f"{path}: {problem}\n{hint}")
-
-
-def _keep_heap() -> None:
-    """Keep freed memory in the process: a tile's temporaries otherwise return to the system one by one.
-
-    glibc raises its limits for that to the size of the largest mapped block freed so far.
-    """
-    np.empty(1 << 21)
+def _unfinished(path: Path, tiles: Path, error: OSError) -> ScanError:
+    if isinstance(error, FileNotFoundError):
+        return removed(tiles)
+    problem = "the disk is full" if error.errno in NO_SPACE else " ".join(str(error).split())[:200]
+    return ScanError(f"{path}: {problem}\n{KEPT if tiles.exists() else 'no part of it was finished'}")

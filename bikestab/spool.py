@@ -6,6 +6,7 @@ or a full disk left half-written at the end is cut off when the file is opened a
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import struct
@@ -26,6 +27,8 @@ except ImportError:  # pragma: no cover  # Windows has no such lock: nobody then
 _MAGIC = b"bikestab tiles 1 "
 _HEAD = struct.Struct("<QIQ")  # number of the tile, lengths of its notes and data
 _SUM = struct.Struct("<I")  # checksum of all three
+NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+_NO_LOCKS = {errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK}  # some network disks
 
 
 class Spool:
@@ -34,7 +37,7 @@ class Spool:
     ``identity`` is what must be the same for old tiles to be used again, in the order in which it is told of;
     the tiles of another scan are dropped if ``replace``. ``notes`` has what was noted with each tile, by its
     number. Raises InputError where another process has the file, it has another scan's tiles, or it cannot
-    be written.
+    be written, and OSError where the disk is full.
     """
 
     def __init__(self, path: Path, identity: Mapping[str, str], *, replace: bool = False) -> None:
@@ -44,6 +47,8 @@ class Spool:
         try:
             self._file = _locked(path)
         except OSError as error:
+            if error.errno in NO_SPACE:
+                raise
             problem = f"{path} cannot be written ({error.strerror or error})"
             raise InputError(problem, key=("output",), hint="choose another folder") from None
         first = _MAGIC + json.dumps(dict(identity)).encode() + b"\n"
@@ -66,7 +71,10 @@ class Spool:
         self.close()
 
     def add(self, number: int, notes: object, data: bytes) -> None:
-        """Keep a finished tile; ``notes`` is anything that JSON can hold. OSError where the disk is full."""
+        """Keep a finished tile; ``notes`` is anything that JSON can hold.
+
+        Raises OSError where the disk is full, and ScanError where the file is not in its place any more.
+        """
         text = json.dumps(notes).encode()
         record = _HEAD.pack(number, len(text), len(data)) + text + data
         record = _SUM.pack(isal_zlib.crc32(record)) + record
@@ -78,8 +86,8 @@ class Spool:
         except OSError:
             del self.notes[number], self._at[number]
             raise
-        if os.fstat(self._file.fileno()).st_nlink == 0:
-            raise ScanError(f"{self.path} was removed while it was in use; nothing is kept")
+        if not self.in_place():
+            raise removed(self.path)
 
     def read(self, number: int, part: slice = slice(None)) -> bytes:
         """The data of a finished tile, or a part of it."""
@@ -94,7 +102,12 @@ class Spool:
 
     def remove(self) -> None:
         """Delete the file, which still keeps others out until it is closed."""
-        self.path.unlink(missing_ok=True)
+        if self.in_place():
+            self.path.unlink(missing_ok=True)
+
+    def in_place(self) -> bool:
+        """Whether the file is where it was made, so that it will be found again."""
+        return _is_at(self._file, self.path)
 
     def _append(self, data: bytes, start: int) -> None:
         rest = memoryview(data)
@@ -141,20 +154,44 @@ class Spool:
         return True
 
 
+def removed(path: Path) -> ScanError:
+    """What to say where the file, or its folder, was taken away."""
+    problem = f"{path} was removed while it was in use, or moved"
+    return ScanError(f"{problem}\nif it is put back, the same command goes on from there")
+
+
 def _locked(path: Path) -> FileIO:
     while True:
         file = FileIO(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+")
         try:
-            if fcntl:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if path.exists() and os.fstat(file.fileno()).st_ino == path.stat().st_ino:
+            _lock(file, path)
+            if _is_at(file, path):
                 return file  # else the one who had it has just removed it
-        except BlockingIOError:
+        except BaseException:
             file.close()
-            problem = f"another scan is writing into {path.parent}"
-            hint = "wait for it, or choose another output"
-            raise InputError(problem, key=("output",), hint=hint) from None
+            raise
         file.close()
+
+
+def _lock(file: FileIO, path: Path) -> None:
+    if not fcntl:
+        return
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        problem = f"another scan is writing into {path.parent}"
+        raise InputError(problem, key=("output",), hint="wait for it, or choose another output") from None
+    except OSError as error:
+        if error.errno not in _NO_LOCKS:  # where there are none, nobody hinders a second scan
+            raise
+
+
+def _is_at(file: FileIO, path: Path) -> bool:
+    """Whether a path leads to an open file."""
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), path.stat())
+    except OSError:
+        return False
 
 
 def _difference(line: bytes, first: bytes) -> str:

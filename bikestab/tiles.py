@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import io
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.boundary import AGREEMENT, Agreement, check
 from bikestab.chunks import packed
+from bikestab.ensemble import ensemble_statistics
 from bikestab.errors import ScanError
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import CONDITIONS, condition
@@ -22,6 +23,9 @@ from bikestab.sheets import Roots, most_roots
 from bikestab.signs import violated_between
 from bikestab.spectrum import growth_rate
 from bikestab.speeds import Critical, Intervals, critical, intervals_between
+
+if TYPE_CHECKING:
+    from bikestab.variation import Ensemble
 
 _POINTS = 1 << 14  # evaluated at a time, so that an array of them and its temporaries fit the cache
 
@@ -43,6 +47,7 @@ class Tile:
     chunk: tuple[int, int, int]
     columns: bool
     above: float = 0.0
+    ensemble: Ensemble | None = None
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -51,10 +56,14 @@ class Tile:
 
 
 class Columns(NamedTuple):
-    """The intervals of stable speed and the roots of each condition over a tile's (λ, σ)."""
+    """What a tile's (λ, σ) have: the intervals of stable speed, the roots of each condition, and the spread.
+
+    ``spread`` (λ, σ, item) is an ensemble's ``somewhere``, ``unbounded``, and quantiles of V1 and of V2.
+    """
 
     intervals: Intervals
     roots: dict[str, Roots]
+    spread: Floats
 
     def to_bytes(self) -> bytes:
         """The columns as they are kept until the volume is written."""
@@ -64,7 +73,7 @@ class Columns(NamedTuple):
         out = io.BytesIO()
         for array in (
             np.stack([V1, V2]), np.stack([lower, upper]), np.cumsum([each.shape[-1] for each in V]),
-            np.concatenate(V, axis=-1), np.concatenate(rising, axis=-1),
+            np.concatenate(V, axis=-1), np.concatenate(rising, axis=-1), self.spread,
         ):  # fmt: skip
             np.save(out, array, allow_pickle=False)
         return out.getvalue()
@@ -73,10 +82,10 @@ class Columns(NamedTuple):
     def from_bytes(cls, data: bytes) -> Columns:
         """The columns that ``to_bytes`` turned into bytes."""
         file = io.BytesIO(data)
-        ends, kinds, stops, V, rising = (np.load(file, allow_pickle=False) for _ in range(5))
+        ends, kinds, stops, V, rising, spread = (np.load(file, allow_pickle=False) for _ in range(6))
         each = zip(np.split(V, stops[:-1], axis=-1), np.split(rising, len(CONDITIONS), axis=-1), strict=True)
         roots = {name: Roots(*arrays) for name, arrays in zip(CONDITIONS, each, strict=True)}
-        return cls(Intervals(*ends, *kinds), roots)
+        return cls(Intervals(*ends, *kinds), roots, spread)
 
 
 class Finished(NamedTuple):
@@ -92,6 +101,7 @@ def compute(tile: Tile) -> Finished:
 
     Raises ScanError where the exact critical speeds and the conditions themselves do not agree.
     """
+    keep_heap()
     whole = characteristic_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model)
     table = whole.reshape(5, 4, -1)
     exact = critical(table)
@@ -100,14 +110,30 @@ def compute(tile: Tile) -> Finished:
     if agreement.largest > AGREEMENT:
         raise _disagreement(agreement)
     notes = {"stable_points": int(np.count_nonzero(mask == 0)), "agreement": agreement}
-    chunks = [chunk for name in tile.fields for chunk in packed(_field(name, table, tile, mask), tile.chunk)]
+    spread = np.empty((*tile.shape[:2], 0))
+    chunks = []
+    for name in tile.fields:
+        if name == "probability":
+            values, spread = _ensemble(tile)
+        else:
+            values = _field(name, table, tile, mask)
+        chunks += packed(values, tile.chunk)
     columns = b""
     if tile.columns:
-        found = _columns(table, exact, tile.shape[:2])
+        found = _columns(table, exact, spread)
         columns = found.to_bytes()
         notes["intervals"] = found.intervals.V1.shape[-1]
         notes["most_roots"] = {name: most_roots(roots) for name, roots in found.roots.items()}
     return Finished(notes, columns, joined(chunks))
+
+
+def keep_heap() -> None:
+    """Keep freed memory in the process: temporaries otherwise return to the system one by one.
+
+    glibc raises its limits for that to the size of the largest mapped block freed so far. Without it
+    a tile without growth rates takes half as long again.
+    """
+    np.empty(1 << 21)
 
 
 def joined(chunks: list[bytes]) -> bytes:
@@ -140,7 +166,19 @@ def _field(name: str, table: Floats, tile: Tile, mask: NDArray[np.uint8]) -> NDA
     return out.reshape(tile.shape)
 
 
-def _columns(table: Floats, exact: Critical, shape: tuple[int, int]) -> Columns:
+def _ensemble(tile: Tile) -> tuple[NDArray[np.float32], Floats]:
+    """The probability at each point, and the spread of ``Columns``."""
+    assert tile.ensemble is not None
+    n, m, _ = tile.shape
+    machines, quantiles = tile.ensemble.machines(tile.bicycle), tile.ensemble.quantiles
+    lam, sigma = np.repeat(tile.lam, m), np.tile(tile.sigma, n)
+    found = ensemble_statistics(machines, lam, sigma, tile.V, tile.model, quantiles)
+    spread = np.column_stack([found.somewhere, found.unbounded, found.V1, found.V2])
+    return found.probability.reshape(tile.shape), spread.reshape(n, m, -1)
+
+
+def _columns(table: Floats, exact: Critical, spread: Floats) -> Columns:
+    shape = spread.shape[:2]
     intervals = intervals_between(table, exact)
     roots = {}
     for name in CONDITIONS:
@@ -149,7 +187,7 @@ def _columns(table: Floats, exact: Critical, shape: tuple[int, int]) -> Columns:
     V1, V2, lower, upper = intervals
     size = (*shape, V1.shape[-1])
     ends = Intervals(V1.reshape(size), V2.reshape(size), lower.reshape(size), upper.reshape(size))
-    return Columns(ends, roots)
+    return Columns(ends, roots, spread)
 
 
 def _disagreement(found: Agreement) -> ScanError:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
+from copy import copy
 from pathlib import Path
 from typing import Any, Self
 
@@ -12,13 +14,16 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.config import Axis
-from bikestab.errors import InputError
+from bikestab.errors import InputError, nearest
 from bikestab.model import Floats, Model
 from bikestab.plan import FIELDS
 
 
 class Volume:
-    """A complete volume, open for reading. Raises InputError for any other file."""
+    """A complete volume, open for reading. Raises InputError for any other file.
+
+    ``swept`` has the values of each axis of a sweep by its name; ``at`` chooses one of its machines.
+    """
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
@@ -26,11 +31,21 @@ class Volume:
             self.path = self.path / "volume.h5"
         place = str(path)
         if not self.path.is_file():
+            folder = self.path if self.path.is_dir() else self.path.parent
+            if (folder / "volume.h5.tiles").exists():
+                hint = "'bikestab scan CONFIG' goes on where it was stopped"
+                raise InputError("holds a scan that is not finished", place=place, hint=hint)
             raise InputError("there is no such volume", place=place, hint="'bikestab scan CONFIG' writes one")
         try:
+            self.path.open("rb").close()
             self.file = h5py.File(self.path, "r")
-        except OSError:
-            raise InputError("is not an HDF5 file, or a damaged one", place=place) from None
+        except PermissionError as error:
+            raise InputError(f"cannot be read ({error.strerror})", place=place) from None
+        except OSError as error:
+            problem = "is not an HDF5 file, or a damaged one"
+            if "unable to lock" in str(error):
+                problem = "is being written to by another program"
+            raise InputError(problem, place=place) from None
         attributes = self.file.attrs
         if "config_sha256" not in attributes or "lam" not in self.file:
             self.file.close()
@@ -38,6 +53,9 @@ class Volume:
         if not attributes.get("complete", 0):
             self.file.close()
             raise InputError("is incomplete", place=place, hint="'bikestab scan --force' writes it again")
+        axes = [dim[0].name[1:] for dim in self.file["machine"].dims][:-1] if "machine" in self.file else []
+        self.swept: dict[str, Floats] = {name: self.file[name][()] for name in axes}
+        self._chosen: dict[str, int] = {}
 
     def __enter__(self) -> Self:
         return self
@@ -51,9 +69,15 @@ class Volume:
         return value.decode() if isinstance(value, bytes) else str(value)
 
     def read(self, name: str, where: tuple[int | slice, ...] = ()) -> NDArray[Any]:
-        """A dataset or a part of it; InputError where the file is damaged there."""
+        """A dataset or a part of it, without the sweep's axes where a machine was chosen.
+
+        Raises InputError where the file is damaged there.
+        """
+        data = self.file[name]
+        if self._chosen and data.ndim > len(self._chosen) + 1:
+            where = (*self._chosen.values(), *where)
         try:
-            return self.file[name][where]
+            return data[where]
         except OSError:
             problem = f"is damaged: {name} cannot be read"
             raise InputError(problem, place=str(self.path), hint="scan again with --force") from None
@@ -67,14 +91,51 @@ class Volume:
         """The names of the (lam, sigma, V) fields in the file."""
         return [name for name in FIELDS if name in self.file]
 
+    def at(self, values: Mapping[str, float]) -> Volume:
+        """The volume of one machine of the sweep, at these values of its axes; itself without a sweep.
+
+        Raises InputError for an unknown or missing axis, and for a value that it does not have.
+        """
+        for name in values:
+            if name not in self.swept:
+                hint = nearest(name, self.swept) if self.swept else "its config has no sweep"
+                raise InputError(f"has no axis {name!r}", place=str(self.path), hint=hint)
+        chosen = copy(self)
+        for name, axis in self.swept.items():
+            allowed = ", ".join(f"{value:g}" for value in axis)
+            if name not in values:
+                problem = f"has several machines, with {name} = {allowed}"
+                hint = f"choose one, for example --at {name}={axis[0]:g}"
+                raise InputError(problem, place=str(self.path), hint=hint)
+            near = int(np.argmin(np.abs(axis - values[name])))
+            if not np.isclose(axis[near], values[name], rtol=1e-9, atol=0):
+                problem = f"has no {name} = {values[name]:g}"
+                raise InputError(problem, place=str(self.path), hint=f"allowed: {allowed}")
+            chosen._chosen = {**chosen._chosen, name: near}
+        return chosen
+
+    @property
+    def samples(self) -> int:
+        """How many machines its ensemble has; 0 without one."""
+        return int(self.file.attrs.get("ensemble_samples", 0))
+
+    @property
+    def title(self) -> str:
+        """The title, and what tells the chosen machine from the others."""
+        values = ", ".join(f"{name} = {self.swept[name][i]:g}" for name, i in self._chosen.items())
+        return self.text("title") + (f" ({values})" if values else "")
+
     @property
     def bicycle(self) -> Bicycle:
-        """The machine that was computed, with the damping used."""
-        return Bicycle(
-            **json.loads(self.text("bicycle_parameters")),
-            name=self.text("bicycle"),
-            source=self.text("references"),
-        )
+        """The machine that was computed, with the damping used; of a sweep the chosen one."""
+        numbers = json.loads(self.text("bicycle_parameters"))
+        if self._chosen:
+            row = self.file["machine"][tuple(self._chosen.values())].tolist()
+            names = self.file["machine"].attrs["names"].decode().split()
+            numbers = {
+                name: None if np.isnan(value) else value for name, value in zip(names, row, strict=True)
+            }
+        return Bicycle(**numbers, name=self.text("bicycle"), source=self.text("references"))
 
     @property
     def model(self) -> Model:

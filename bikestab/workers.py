@@ -1,4 +1,4 @@
-"""Tiles → finished tiles: in this process, in processes of this machine, or on a Dask cluster.
+"""Tiles → finished tiles: in this process, or in processes of this machine. ``cluster`` has other machines.
 
 Threads gain nothing here: numpy's calls on tiles that fit the cache take some 10 µs, and a thread that waits
 for the interpreter's lock is woken only after several of these.
@@ -9,133 +9,119 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import sys
 import threading
-from collections.abc import Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
-from itertools import islice
-from typing import Any
+import traceback
+from collections import deque
+from collections.abc import Generator, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+from multiprocessing import resource_tracker
+from multiprocessing.connection import Connection, wait
+from queue import SimpleQueue
+from types import ModuleType
+from typing import cast
 
-from bikestab import __version__
-from bikestab.errors import InputError, ScanError
+from bikestab.errors import KEPT, ScanError
 from bikestab.tiles import Finished, Tile, compute
 
 Numbered = tuple[int, Tile]
 
 
-def in_turn(tiles: Iterable[Numbered]) -> Iterator[tuple[int, Finished]]:
+def in_turn(tiles: Iterable[Numbered]) -> Generator[tuple[int, Finished]]:
     """Compute each tile here."""
     for number, tile in tiles:
         yield number, compute(tile)
 
 
-def in_processes(tiles: Iterable[Numbered], jobs: int) -> Iterator[tuple[int, Finished]]:
-    """Compute tiles in ``jobs`` processes, in any order. ScanError if one of them dies."""
-    with _pool(jobs) as pool:
-        try:
-            yield from _in_flight(pool, tiles, 2 * jobs)
-        except BrokenProcessPool:
-            raise ScanError("a worker process died; perhaps the machine's memory is full") from None
+def in_processes(tiles: Iterable[Numbered], jobs: int) -> Generator[tuple[int, Finished]]:
+    """Compute tiles in ``jobs`` processes, in any order. ScanError if one of them dies.
 
-
-def on_cluster(tiles: Iterable[Numbered], scheduler: str) -> Iterator[tuple[int, Finished]]:
-    """Compute tiles on the Dask cluster at an address, or on ``local:N`` processes, in any order.
-
-    Raises InputError for an address that nobody answers at and where Dask is not installed, and ScanError
-    where the cluster cannot finish.
+    Each has one tile at work and one in reserve, no more: they hold memory.
     """
-    try:
-        import dask
-        import distributed
-    except ImportError:
-        problem = '--scheduler needs the extra: pip install "bikestab[cluster]"'
-        raise InputError(problem) from None
-    with dask.config.set({"distributed.logging.distributed": "critical"}), _client(scheduler) as client:
-        versions = client.run(_version)
-        other = {worker: version for worker, version in versions.items() if version != __version__}
-        for worker, version in other.items():
-            raise ScanError(f"worker {worker} has bikestab {version}, this is {__version__}")
-        window = 2 * max(1, sum(client.nthreads().values()))
-        try:
-            yield from _in_flight(client.get_executor(pure=False), tiles, window)
-        except (distributed.KilledWorker, distributed.client.FutureCancelledError, OSError) as error:
-            raise ScanError(f"the cluster at {scheduler} could not finish ({error})") from None
-
-
-def _in_flight(executor: Executor, tiles: Iterable[Numbered], window: int) -> Iterator[tuple[int, Finished]]:
-    """Keep ``window`` tiles at work, no more: each holds memory."""
     todo = iter(tiles)
-    running: dict[Future[Finished], int] = {}
+    with ExitStack() as stack:
+        workers = {stack.enter_context(_worker()): deque[int]() for _ in range(jobs)}
+        try:
+            for worker in 2 * list(workers):
+                _hand(worker, todo, workers)
+            while busy := [worker for worker, numbers in workers.items() if numbers]:
+                for worker in cast("list[Connection]", wait(busy)):
+                    answer = worker.recv()
+                    number = workers[worker].popleft()
+                    _hand(worker, todo, workers)
+                    if isinstance(answer, BaseException):
+                        raise answer
+                    yield number, answer
+        except (EOFError, OSError):
+            raise ScanError(f"a worker process died; perhaps the memory is full\n{KEPT}") from None
+
+
+def _hand(worker: Connection, todo: Iterator[Numbered], workers: dict[Connection, deque[int]]) -> None:
+    for number, tile in todo:
+        worker.send(tile)
+        workers[worker].append(number)
+        return
+
+
+@contextmanager
+def _worker() -> Iterator[Connection]:
+    """A process that answers each tile with what ``compute`` makes of it."""
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_serve, args=(theirs,), daemon=True)
+    try:
+        with undisturbed():
+            process.start()
+        theirs.close()
+        yield ours
+    finally:
+        if process.pid is not None:
+            process.kill()  # it holds nothing, and a tile at work would only be waited for
+            process.join()
+        ours.close()
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Let processes that are started here know nothing of Ctrl-C, nor of the script that was started.
+
+    They would import it, which may not be made for that, and it has nothing that they need.
+    """
+    main, mask = sys.modules["__main__"], None
+    if hasattr(signal, "pthread_sigmask"):
+        resource_tracker.ensure_running()  # which lets signals through again when it starts
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = main
+        if mask is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+def _serve(parent: Connection) -> None:
+    """What a worker process does, until nobody is there any more who wants it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    tiles: SimpleQueue[Tile] = SimpleQueue()
+    threading.Thread(target=_receive, args=(parent, tiles), daemon=True).start()
+    while True:
+        answer: Finished | Exception
+        try:
+            answer = compute(tiles.get())
+        except Exception as error:
+            error.add_note(traceback.format_exc())
+            answer = error
+        try:
+            parent.send(answer)
+        except OSError:
+            os._exit(0)
+
+
+def _receive(parent: Connection, tiles: SimpleQueue[Tile]) -> None:
+    """Take tiles while others are computed, so that the parent never has to wait before it can go on."""
     try:
         while True:
-            for number, tile in islice(todo, window - len(running)):
-                running[executor.submit(compute, tile)] = number
-            if not running:
-                return
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                yield running.pop(future), future.result()
-    finally:
-        for future in running:
-            future.cancel()
-
-
-@contextmanager
-def _pool(jobs: int) -> Iterator[Executor]:
-    methods = multiprocessing.get_all_start_methods()
-    context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
-    if "forkserver" in methods:
-        context.set_forkserver_preload(["bikestab.tiles"])
-    others = set(multiprocessing.active_children())
-    pool = ProcessPoolExecutor(jobs, context, initializer=_start)
-    try:
-        yield pool
-    except BaseException:
-        for process in set(multiprocessing.active_children()) - others:
-            process.terminate()  # its tile would only be waited for
-        raise
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def _start() -> None:
-    """Let a worker leave Ctrl-C to the process that started it, and not outlive that."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-    assert parent is not None
-
-    def follow() -> None:
-        parent.join()
-        os._exit(1)
-
-    threading.Thread(target=follow, daemon=True).start()
-
-
-@contextmanager
-def _client(scheduler: str) -> Iterator[Any]:
-    from distributed import Client, LocalCluster
-
-    kind, _, rest = scheduler.partition(":")
-    if kind == "local":
-        if not rest.isdecimal() or int(rest) < 1:
-            problem = f"{scheduler!r} is no number of processes"
-            raise InputError(problem, hint="for example --scheduler local:4")
-        with (
-            LocalCluster(
-                n_workers=int(rest), threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL"
-            ) as cluster,
-            Client(cluster) as client,
-        ):
-            yield client
-        return
-    try:
-        client = Client(scheduler, timeout=10)
-    except (OSError, ValueError) as error:
-        problem = f"no Dask scheduler answers at {scheduler!r} ({error})"
-        raise InputError(problem, hint="for example --scheduler tcp://127.0.0.1:8786") from None
-    with client:
-        yield client
-
-
-def _version() -> str:
-    return __version__
+            tiles.put(parent.recv())
+    except (EOFError, OSError):
+        os._exit(0)  # the parent is gone

@@ -23,6 +23,7 @@ from bikestab import __version__
 from bikestab.boundary import Agreement
 from bikestab.chunks import packed, places
 from bikestab.config import AXES
+from bikestab.model import Floats
 from bikestab.plan import FIELDS, Plan
 from bikestab.routh import CONDITIONS
 from bikestab.sheets import Sheets
@@ -49,6 +50,7 @@ def new_volume(path: Path, plan: Plan) -> Iterator[VolumeWriter]:
                 yield VolumeWriter(file, plan, sink)
             sink.check()
             os.fsync(sink.fileno())
+            sink.check()
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
@@ -99,6 +101,8 @@ class VolumeWriter:
         self._attributes()
         for swept in plan.config.axes:
             self._scale(swept.name, swept.values, swept.unit, swept.meaning)
+        if self._lead:
+            self._machines()
         for axis in AXES:
             self._scale(axis, plan.config.grid.values(axis), *_AXIS_TEXT[axis])
         for name in plan.fields:
@@ -130,8 +134,21 @@ class VolumeWriter:
             "config_sha256": config.sha256,
             "complete": np.int32(0),
         }
+        if config.ensemble:
+            attributes["ensemble_samples"] = config.ensemble.samples
         for key, value in attributes.items():
             self.file.attrs[key] = value
+
+    def _machines(self) -> None:
+        """The parameters of every machine of the sweep, which the axes alone need not tell."""
+        rows = [list(member.bicycle.numbers().values()) for member in self.plan.config.members]
+        values = np.array(rows, float).reshape(*self.plan.lead, -1)  # NaN for None
+        self._counter("parameter", values.shape[-1], "number of the machine's parameter")
+        data = self.file.create_dataset("machine", data=values, track_order=True)
+        for i, axis in enumerate([*self._lead, "parameter"]):
+            data.dims[i].attach_scale(self.file[axis])
+        _describe(data, "", "parameters of each machine in SI units, in the order of the attribute 'names'")
+        data.attrs["names"] = _ascii(*self.plan.config.machine.numbers())
 
     def write_fields(self, place: tuple[int, ...], shape: tuple[int, ...], chunks: list[bytes]) -> None:
         """Put a tile's chunks into the fields; ``place`` is its first index, ``shape`` its own."""
@@ -145,8 +162,8 @@ class VolumeWriter:
             ids[name].write_direct_chunk(offset, chunk)
         self._sink.check()
 
-    def create_columns(self, intervals: int, widths: dict[str, int]) -> None:
-        """Make room for what depends on (λ, σ) alone: so many intervals, and sheets of each condition."""
+    def create_columns(self, intervals: int, sheets: int) -> None:
+        """Make room for what depends on (λ, σ) alone: so many intervals, and sheets of a condition."""
         self._counter("interval", max(1, intervals), "number of the stable interval")
         for name, text in (
             ("V1", "lower end of each stable speed interval"),
@@ -156,23 +173,44 @@ class VolumeWriter:
         for name in ("lower", "upper"):
             text = f"what happens at the {name} end of each stable interval"
             _flags(self._column(name, "interval", np.uint8, "1", text), KINDS)
-        self._counter("root", max(1, *widths.values()), "number of the sheet of roots")
+        self._counter("root", max(1, sheets), "number of the sheet of roots")
         self.file.create_group("boundary", track_order=True)
         for name in CONDITIONS:
             text = f"every speed at which {name} changes sign, sheet by sheet"
             self._column(f"boundary/{name}", "root", np.float64, "m s-1", text)
             text = f"whether {name} = 0 is an edge of stability there"
             _flags(self._column(f"boundary/{name}_edge", "root", np.uint8, "1", text), ("no_edge", "edge"))
+        if self.plan.config.ensemble:
+            self._create_spread(self.plan.config.ensemble.quantiles)
+
+    def _create_spread(self, quantiles: list[float]) -> None:
+        self._scale("quantile", np.array(quantiles), "1", "share of the machines with a stable speed")
+        for name, text in (
+            ("probability_somewhere", "share of the ensemble's machines that have a stable speed"),
+            ("probability_unbounded", "share of them that are stable without an upper limit"),
+        ):
+            self._create(name, ("lam", "sigma"), np.float64, self.plan.tile[:2], "1", text)
+        for name in ("V1", "V2"):
+            end = "lower" if name == "V1" else "upper"
+            text = f"quantiles of the {end} end of the widest stable interval, of machines that have one"
+            self._column(f"{name}_quantiles", "quantile", np.float64, "m s-1", text)
 
     def write_columns(
-        self, place: tuple[int, ...], intervals: Intervals, surfaces: dict[str, Sheets]
+        self, place: tuple[int, ...], intervals: Intervals, surfaces: dict[str, Sheets], spread: Floats
     ) -> None:
-        """Put a tile's intervals and boundary surfaces into the file."""
+        """Put a tile's intervals, boundary surfaces and, for an ensemble, their spread into the file."""
         for name, values in intervals._asdict().items():
             self._write_column(name, place, values)
         for name, (V, edge) in surfaces.items():
             self._write_column(f"boundary/{name}", place, V)
             self._write_column(f"boundary/{name}_edge", place, edge)
+        if spread.shape[-1]:
+            V1, V2 = np.split(spread[..., 2:], 2, axis=-1)
+            self._write_column("V1_quantiles", place, V1)
+            self._write_column("V2_quantiles", place, V2)
+            for k, name in enumerate(("probability_somewhere", "probability_unbounded")):
+                (chunk,) = packed(spread[..., k], self._data[name].chunks[-2:])
+                self._data[name].id.write_direct_chunk(place[:-1], chunk)
         self._sink.check()
 
     def finish(self, stable_points: int, agreement: Agreement) -> None:
@@ -206,10 +244,10 @@ class VolumeWriter:
         return self._create(name, ("lam", "sigma", last), dtype, chunk, unit, text)
 
     def _write_column(self, name: str, place: tuple[int, ...], values: NDArray) -> None:
-        data = self._data[name]
-        if np.all(np.isnan(values) if np.isnan(data.fillvalue) else values == 0):
+        data, empty = self._data[name], np.nan if values.dtype == float else 0
+        if np.all(np.isnan(values) if np.isnan(empty) else values == 0):
             return  # a chunk that is not there reads as the fill value
-        (chunk,) = packed(widened(values, data.shape[-1], data.fillvalue), data.chunks[-3:])
+        (chunk,) = packed(widened(values, data.shape[-1], empty), data.chunks[-3:])
         data.id.write_direct_chunk((*place[:-1], 0), chunk)
 
     def _scale(self, name: str, values: NDArray, unit: str, text: str) -> None:

@@ -11,9 +11,10 @@ from mpmath import mp
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import MODELS, NOISE, canonical_matrices, characteristic_table, coefficients
+from bikestab.samples import Machines
 from bikestab.speeds import KINDS, stable_intervals
 from tests.references import generate_speeds as reference
-from tests.strategies import lams, machines, meijaard_machines, sigmas
+from tests.strategies import lams, machines, meijaard_machines, paper_machines, sigmas
 
 EPS = np.finfo(float).eps
 ENTRIES = {(4, 0), (3, 1), (3, 0), (2, 2), (2, 0), (1, 3), (1, 1), (1, 0), (0, 2), (0, 0)}
@@ -156,3 +157,49 @@ def test_shapes(lam_shape, sigma_shape, shape, model):
         alone = characteristic_table(bicycle, float(lams_[cell]), float(sigmas_[cell]), model=model)
         # numpy's vectorised sin and cos may differ from the scalar ones in the last digit
         assert table[(..., *cell)] == pytest.approx(alone, rel=1e-13, abs=8 * EPS * np.abs(alone).max())
+
+
+@settings(deadline=None, max_examples=100, derandomize=True)
+@given(machine=paper_machines(), data=st.data())
+def test_many_machines_are_the_same_as_one_after_another(machine, data):
+    """To the last bit, where the squares of lengths are exact: Python and numpy may round others apart."""
+    lengths = ("h1", "l1", "h2", "l2")
+    bicycle = Bicycle.from_mapping(
+        {k: float(np.float32(v)) if k in lengths else v for k, v in machine.items()}
+    )
+    names = data.draw(st.lists(st.sampled_from(sorted(bicycle.given)), min_size=1, max_size=4, unique=True))
+    factors = np.array([1.0, 1.25, 1.5])
+    samples = {name: bicycle.given[name] * factors for name in names}
+    if any(name[0] in "D" for name in names):
+        samples |= {name: bicycle.given[name] * factors for name in ("A1", "B1", "A2", "B2")}
+    lam = np.array(data.draw(st.lists(lams, min_size=2, max_size=2)))
+    sigma = np.array(data.draw(st.lists(sigmas, min_size=2, max_size=2)))
+    for model in MODELS:
+        table = characteristic_table(Machines.drawn(bicycle, samples), lam, sigma, model=model)
+        assert table.shape == (5, 4, 3, 2)
+        for i in range(3):
+            one = bicycle.replaced({name: float(values[i]) for name, values in samples.items()})
+            np.testing.assert_array_equal(table[:, :, i], characteristic_table(one, lam, sigma, model=model))
+
+
+def test_many_machines_some_of_them_on_skates():
+    samples = {"C1": np.array([0.0, 0.0, 0.5]), "R1": np.array([0.0, 0.3, 0.3])}
+    bicycle = Bicycle.preset("dikarev1981")
+    table = characteristic_table(Machines.drawn(bicycle, samples), 0.2, np.array([0.08]))
+    for i in range(3):
+        one = bicycle.replaced({name: float(values[i]) for name, values in samples.items()})
+        expected = characteristic_table(one, 0.2, 0.08)
+        np.testing.assert_allclose(table[:, :, i, 0], expected, rtol=1e-14)
+    assert np.array_equal(table[:, :, 0], table[:, :, 1])
+
+
+@settings(deadline=None, max_examples=100, derandomize=True)
+@given(machine=paper_machines(), rear=st.booleans(), front=st.booleans())
+def test_what_does_not_spin_has_no_angular_momentum(machine, rear, front):
+    """To the last bit: a5 = (h + C1/R1 + C2/R2) cos λ of (1.5), on wheels or on skates."""
+    machine |= {"C1": 0.0, "R1": 0.0} if rear else {}
+    machine |= {"C2": 0.0, "R2": 0.0} if front else {}
+    n = Bicycle.from_mapping(machine).numbers()
+    spin = [n[f"C{i}"] / n[f"R{i}"] if n[f"R{i}"] else 0.0 for i in "12"]
+    h = n["m1"] * n["h1"] + n["m2"] * n["h2"]
+    assert coefficients(Bicycle.from_mapping(machine), 0.0, 0.1).a5.value == h + spin[0] + spin[1]

@@ -64,10 +64,13 @@ def test_places_are_at_borders_of_chunks(plan):
 
 @pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
 def test_each_column_is_in_one_tile_that_has_it(plan):
-    """And that is the tile of the lowest speeds; ``of_member`` finds these, row by row."""
-    members = int(np.prod(plan.lead))
+    """And that is the tile of the lowest speeds; ``with_columns`` finds these, row by row."""
+    assert plan.members == int(np.prod(plan.lead))
     having = [number for number in range(len(plan)) if plan[number].columns]
-    assert [number for member in range(members) for number in plan.of_member(member)] == having
+    found = [plan.with_columns(member) for member in range(plan.members)]
+    assert [number for numbers in found for number in numbers] == having
+    for member, numbers in enumerate(found):
+        assert {plan.member(number) for number in numbers} == {member}
     seen = np.zeros(plan.shape[:-1], int)
     for number in having:
         *lead, i, j, k = plan.place(number)

@@ -241,11 +241,11 @@ def test_a_plane_outside_the_volume(volume, fixed, value):
 
 
 def test_names_of_files():
-    assert slice_name("lam", 0.2) == "slice_lam_0.2.png"
-    assert slice_name("V", 5.0) == "slice_V_5.png"
-    assert slice_name("sigma", 0.0784313725) == "slice_sigma_0.0784313725.png"
-    assert slice_name("lam", np.float64(0.2)) == "slice_lam_0.2.png"
+    assert slice_name({"lam": 0.2}) == "slice_lam_0.2.png"
+    assert slice_name({"V": 5.0}) == "slice_V_5.png"
+    assert slice_name({"sigma": 0.0784313725}) == "slice_sigma_0.0784313725.png"
+    assert slice_name({"lam": np.float64(0.2)}) == "slice_lam_0.2.png"
 
 
 def test_two_planes_have_two_names():
-    assert slice_name("sigma", 0.07843137) != slice_name("sigma", 0.07843138)
+    assert slice_name({"sigma": 0.07843137}) != slice_name({"sigma": 0.07843138})

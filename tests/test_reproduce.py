@@ -14,10 +14,10 @@ from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
 from bikestab.model import characteristic_table
 from bikestab.paper import LAM, SIGMA, V
-from bikestab.plot import Section, edge_curves
 from bikestab.plot_paper import ARROW, oriented
 from bikestab.report import key_number, rendered
 from bikestab.routh import CONDITIONS, stable
+from bikestab.section import Section, edge_curves
 from tests.small import TINY, study
 
 # what is no number of the study: formulas, names such as V1 or C2°, references and years, links, units

@@ -3,6 +3,8 @@
 import hashlib
 import json
 import shutil
+import subprocess
+import sys
 
 import h5py
 import numpy as np
@@ -366,6 +368,15 @@ def test_volume_keeps_the_damping_and_the_model(tmp_path):
         assert (volume.bicycle.delta, volume.model) == (1.5, "unrefined")
 
 
+def test_a_scan_that_is_not_finished(tmp_path):
+    (tmp_path / "volume.h5.tiles").touch()
+    for path in (tmp_path, tmp_path / "volume.h5"):
+        with pytest.raises(
+            InputError, match="holds a scan that is not finished\n'bikestab scan CONFIG' goes on"
+        ):
+            Volume(path)
+
+
 def set_incomplete(path):
     with h5py.File(path, "a") as file:
         file.attrs["complete"] = np.int32(0)
@@ -405,6 +416,19 @@ def test_what_is_no_whole_volume_is_refused(equal, tmp_path, harm, problem):
     with pytest.raises(InputError, match=problem) as caught:
         Volume(path)
     assert str(caught.value).startswith(str(path))
+
+
+def test_a_volume_that_another_program_writes_to(equal, tmp_path):
+    path = shutil.copy(equal[0], tmp_path / "copy.h5")
+    holder = "import h5py, sys; f = h5py.File(sys.argv[1], 'a'); print('open', flush=True); sys.stdin.read()"
+    with subprocess.Popen(
+        [sys.executable, "-c", holder, path], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as other:
+        other.stdout.readline()
+        with pytest.raises(InputError, match="is being written to by another program"):
+            Volume(path)
+        other.stdin.close()
+    Volume(path).file.close()
 
 
 def test_a_flipped_byte_is_noticed(equal, tmp_path):

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from bikestab_cli.options import written
+from bikestab_cli.options import at_option, written
 
 if TYPE_CHECKING:
     from bikestab.volume import Volume
@@ -40,6 +40,7 @@ class _Scale(click.ParamType):
 @click.option(
     "--skeleton", metavar="FILE", multiple=True, help="Curves where intervals change: .csv or .parquet."
 )
+@at_option
 @click.option(
     "--cells", type=click.IntRange(10, 400), default=100, show_default=True,
     help="Triangles of the mesh along tilt and along trail.",
@@ -53,6 +54,7 @@ def command(
     meshes: tuple[str, ...],
     intervals: tuple[str, ...],
     skeleton: tuple[str, ...],
+    machine: dict[str, float],
     cells: int,
     scale: tuple[float, float, float] | None,
 ) -> None:
@@ -92,7 +94,8 @@ def command(
             raise click.UsageError(f"{name} is asked for twice", click.get_current_context())
         if not place.parent.is_dir():
             raise InputError("cannot be written (No such file or directory)", place=name)
-    with Volume(volume) as opened:
+    with Volume(volume) as whole:
+        opened = whole.at(machine)
         about = _about(opened)
         if intervals:
             _write_intervals(opened, intervals, about)
@@ -107,7 +110,7 @@ def _about(volume: Volume) -> dict[str, str]:
 
     bicycle = volume.bicycle
     return {
-        "bicycle": bicycle.name, "model": volume.model, "delta": repr(bicycle.delta),
+        "title": volume.title, "bicycle": bicycle.name, "model": volume.model, "delta": repr(bicycle.delta),
         "source": f"bikestab {__version__}", "kinds": "1 weave, 2 capsize",
     }  # fmt: skip
 

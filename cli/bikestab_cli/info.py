@@ -33,12 +33,14 @@ def command(volume: str, show_config: bool, as_json: bool) -> None:
     if as_json:
         print_json(summary)
         return
-    axes = summary.pop("axes")
+    axes, sweep = summary.pop("axes"), summary.pop("sweep")
     warnings = summary.pop("warnings")
     width = max(map(len, summary)) + 2
     for key, value in summary.items():
         shown = ", ".join(value) if isinstance(value, list) else value
         click.echo(f"{key.replace('_', ' '):<{width}}{shown}")
+    for name, values in sweep.items():
+        click.echo(f"{name:<{width}}{', '.join(f'{value:g}' for value in values)} (sweep)")
     for name, axis in axes.items():
         steps = "equal steps" if axis["uniform"] else "own values"
         unit = "" if axis["unit"] == "1" else f" {axis['unit']}"
@@ -56,7 +58,7 @@ def _summary(volume: Any) -> dict[str, Any]:
 
     file = volume.file
     number = np.count_nonzero(volume.read("upper"), axis=-1)
-    points = int(np.prod([len(file[name]) for name in AXES]))
+    points = int(np.prod([len(file[name]) for name in (*volume.swept, *AXES)]))
     attributes = file.attrs
     return {
         "volume": str(volume.path),
@@ -65,6 +67,7 @@ def _summary(volume: Any) -> dict[str, Any]:
         "model": volume.model,
         "delta": volume.bicycle.delta,
         "fields": volume.fields,
+        "ensemble_samples": volume.samples,
         "points": points,
         "stable_points": int(attributes["stable_points"]),
         "designs": int(number.size),
@@ -74,6 +77,7 @@ def _summary(volume: Any) -> dict[str, Any]:
         "largest_boundary_difference": float(file["boundary"].attrs["largest_difference"]),
         "bikestab_version": volume.text("bikestab_version"),
         "config_sha256": volume.text("config_sha256"),
+        "sweep": {name: values.tolist() for name, values in volume.swept.items()},
         "axes": {
             name: {
                 "first": float(values[0]),

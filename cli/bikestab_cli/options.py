@@ -29,9 +29,16 @@ class Quantity(click.ParamType):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         try:
-            return quantity(value, self.units)
+            number = quantity(value, self.units)
         except InputError as error:
             self.fail(f"{error.problem}; {error.hint}", param, ctx)
+        if str(value).strip().endswith("deg") and math.pi / 4 < number < math.pi / 2:
+            tilt = f"{90 - math.degrees(number):g}deg"
+            click.echo(
+                f"note: --lam is the tilt from the vertical; for a head angle of {value} give {tilt}",
+                err=True,
+            )
+        return number
 
 
 class QuantityRange(Quantity):
@@ -94,6 +101,24 @@ def machine_options(function: F) -> F:
         function = option(function)
     return function
 
+
+def _machine(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> dict[str, float]:
+    values: dict[str, float] = {}
+    for text in texts:
+        name, equals, number = text.partition("=")
+        if not equals:
+            raise click.BadParameter(f"{text!r} is not NAME=VALUE, e.g. delta=1", param=option)
+        try:
+            values[name.strip()] = quantity(number, PURE)
+        except InputError as error:
+            raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
+    return values
+
+
+at_option = click.option(
+    "--at", "machine", multiple=True, metavar="NAME=VALUE", callback=_machine,
+    help="Which machine of a sweep, e.g. --at delta=1; once for each of its axes.",
+)  # fmt: skip
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 

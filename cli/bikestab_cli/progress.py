@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import click
 
@@ -15,30 +16,45 @@ TERMINAL, LOG = 0.1, 30.0  # s between two reports
 @contextmanager
 def progress(name: str, quiet: bool) -> Iterator[Callable[[int, int], None]]:
     """A function that takes the points done so far and all, and tells of them on stderr."""
-    terminal = sys.stderr.isatty()
+    terminal = sys.stderr is not None and sys.stderr.isatty()
     begin = last = time.monotonic()
-    first = -1
+    first, shown = -1, False
 
     def show(done: int, points: int) -> None:
-        nonlocal begin, last, first
+        nonlocal begin, last, first, shown
         now = time.monotonic()
         if first < 0:
-            begin, first = now, done
+            begin = last = now
+            first = done
             if done and not quiet:
-                click.echo(f"{name}: going on at {_percent(done, points)}", err=True)
-        if not quiet and now - last >= (TERMINAL if terminal else LOG):
-            last = now
-            line = f"{name}: {_percent(done, points)} of {_short(points)} points"
-            if done > first:
-                rate = (done - first) / (now - begin)
-                line += f", {_short(rate)} points/s, {_time((points - done) / rate)} left"
-            click.echo(f"\r{line}\x1b[K" if terminal else line, nl=not terminal, err=True)
+                _tell(f"{name}: going on at {_percent(done, points)}\n")
+        if quiet or now - last < (TERMINAL if terminal else LOG):
+            return
+        last, shown = now, True
+        line = f"{name}: {_percent(done, points)} of {_short(points)} points"
+        if done > first:
+            rate = (done - first) / (now - begin)
+            line += f", {_short(rate)} points/s, {_time((points - done) / rate)} left"
+        # a line that is wrapped would not be written over
+        _tell(f"\r{line[: _width() - 1]}\x1b[K" if terminal else f"{line}\n")
 
     try:
         yield show
     finally:
-        if terminal and not quiet and last > begin:
-            click.echo("\r\x1b[K", nl=False, err=True)
+        if terminal and shown:
+            _tell("\r\x1b[K")
+
+
+def _tell(text: str) -> None:
+    with suppress(OSError):  # nobody may be listening any more, which is no reason to stop
+        click.echo(text, nl=False, err=True)
+
+
+def _width() -> int:
+    try:
+        return os.get_terminal_size(sys.stderr.fileno()).columns or 80
+    except OSError:
+        return 80
 
 
 def _percent(done: int, points: int) -> str:

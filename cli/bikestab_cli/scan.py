@@ -6,7 +6,7 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 from bikestab_cli.options import json_option, print_json, warn
@@ -15,6 +15,9 @@ from bikestab_cli.progress import progress
 if TYPE_CHECKING:
     from bikestab.config import ScanConfig
     from bikestab.scan import ScanResult
+    from bikestab.volume import Volume
+
+MOST_DRAWN = 8  # machines of a sweep
 
 
 @click.command("scan")
@@ -112,25 +115,41 @@ def _run(
 
 
 def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:
-    from bikestab.plot import draw_slice, save, slice_name
-    from bikestab.plot_region import draw_region
     from bikestab.volume import Volume
 
-    pictures = []
+    pictures: list[Path] = []
+    if len(config.members) > MOST_DRAWN:
+        values = " ".join(f"--at {name}={value:g}" for name, value in config.members[0].values.items())
+        text = f"pictures of {len(config.members)} machines are not drawn; draw one with, for example,"
+        click.echo(f"note: {text} 'bikestab slice {result.path} --lam VALUE {values}'", err=True)
+        return pictures
     with Volume(result.path) as volume:
-        path = result.path.parent / "region.png"
-        try:
-            figure = draw_region(volume)
-        except Exception as error:  # the volume and the other pictures are worth more than this one
-            text = f"{type(error).__name__}: {error}".rstrip(": ")
-            click.echo(f"warning: {path} cannot be drawn ({text}); please report this", err=True)
-        else:
-            save(figure, path)
-            pictures.append(path)
-        for plane in config.slices:
-            fixed, value = plane.fixed
-            pictures.append(result.path.parent / slice_name(fixed, value))
-            save(draw_slice(volume, fixed, value), pictures[-1])
+        for member in config.members:
+            pictures += _draw_machine(config, volume.at(member.values), member.values)
+    return pictures
+
+
+def _draw_machine(config: ScanConfig, volume: Volume, values: dict[str, float]) -> list[Path]:
+    from bikestab.plot import draw_slice, save, slice_name
+    from bikestab.plot_region import draw_region
+
+    pictures = []
+    folder = volume.path.parent
+    path = folder / slice_name(values, "region")
+    try:
+        figure = draw_region(volume)
+    except Exception as error:  # the volume and the other pictures are worth more than this one
+        text = f"{type(error).__name__}: {error}".rstrip(": ")
+        click.echo(f"warning: {path} cannot be drawn ({text}); please report this", err=True)
+    else:
+        save(figure, path)
+        pictures.append(path)
+    fields: tuple[Literal["growth_rate", "probability"], ...] = ("growth_rate", "probability")
+    for plane in config.slices:
+        fixed, value = plane.fixed
+        for field in fields[: 2 if config.ensemble else 1]:
+            pictures.append(folder / slice_name({fixed: value, **values}, field))
+            save(draw_slice(volume, fixed, value, field), pictures[-1])
     return pictures
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Literal
 
 import click
-from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE
+from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE, at_option
 
 
 @click.command("slice")
@@ -13,10 +14,19 @@ from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE
 @click.option("--lam", type=ANGLE_VALUE, help="Fix the tilt: the picture is over trail and speed.")
 @click.option("--sigma", type=TRAIL_VALUE, help="Fix the trail: the picture is over tilt and speed.")
 @click.option("--V", "V", type=SPEED_VALUE, help="Fix the speed: the picture is over tilt and trail.")
+@at_option
+@click.option(
+    "--probability",
+    is_flag=True,
+    help="Of an ensemble: how probable stability is, not the growth rate.",
+)
 @click.option(
     "-o", "--output", metavar="FILE", help="PNG, PDF or SVG; default slice_AXIS_VALUE.png beside the volume."
 )
-def command(volume: str, lam: float | None, sigma: float | None, V: float | None, output: str | None) -> None:
+def command(
+    volume: str, lam: float | None, sigma: float | None, V: float | None, machine: dict[str, float],
+    probability: bool, output: str | None,
+) -> None:  # fmt: skip
     """Draw any plane of a volume.
 
     One of the three axes is fixed. VOLUME is a volume.h5 or its folder. The value need not be on the
@@ -37,8 +47,11 @@ def command(volume: str, lam: float | None, sigma: float | None, V: float | None
         )
     ((fixed, value),) = given.items()
     with Volume(volume) as opened:
-        path = Path(output) if output else opened.path.parent / slice_name(fixed, value)
+        field: Literal["growth_rate", "probability"] = "probability" if probability else "growth_rate"
+        name = slice_name({fixed: value, **machine}, field)
+        path = Path(output) if output else opened.path.parent / name
         if not path.suffix:
             path = path.with_name(path.name + ".png")
-        save(draw_slice(opened, fixed, value), path)  # type: ignore[arg-type]  # one of the three axes
+        figure = draw_slice(opened.at(machine), fixed, value, field)  # type: ignore[arg-type]  # an axis
+        save(figure, path)
     click.echo(str(path))

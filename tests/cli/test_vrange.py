@@ -28,6 +28,13 @@ def results(vrange, *args):
 # --- results
 
 
+def test_a_head_angle_in_place_of_the_tilt(bikestab):
+    code, _, err = bikestab("vrange", "--bicycle", "meijaard2007", "--lam", "72deg")
+    assert code == 0
+    assert err == "note: --lam is the tilt from the vertical; for a head angle of 72deg give 18deg\n"
+    assert bikestab("vrange", "--bicycle", "meijaard2007", "--lam", "18deg")[2] == ""
+
+
 def test_the_benchmark_to_twelve_digits(vrange):
     code, out, err = vrange("--bicycle", "meijaard2007")
     assert (code, err) == (0, "")

@@ -1,0 +1,103 @@
+"""Sweeps and ensembles on the command line: pictures of their machines, and choosing one with --at."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+CONFIG = """\
+bicycle: meijaard2007
+grid:
+  lam: {start: 0.1, stop: 0.5, num: 5}
+  sigma: {start: 0.03, stop: 0.13, num: 6}
+  V: {start: 0, stop: 9, num: 10}
+"""
+SWEEP = "sweep: {delta: [0, 2]}\n"
+ENSEMBLE = "ensemble: {mB: {normal: [85, 8]}, samples: 20}\n"
+
+
+@pytest.fixture
+def scan(bikestab):
+    def run(more, *args):
+        Path("a.yaml").write_text(CONFIG + more)
+        return bikestab("scan", "a.yaml", *args)
+
+    return run
+
+
+def pictures():
+    return sorted(path.name for path in Path("out/a").glob("*.png"))
+
+
+def test_each_machine_has_its_pictures(scan):
+    code, out, err = scan(SWEEP + ENSEMBLE + "slices: [{lam: 0.2}]\n")
+    assert (code, err) == (0, "")
+    assert out.startswith("a.yaml: out/a/volume.h5, 6 pictures: ")
+    assert "of 600 points stable" in out
+    assert pictures() == [
+        f"{kind}_delta_{value}.png"
+        for kind in ("probability_lam_0.2", "region", "slice_lam_0.2")
+        for value in (0, 2)
+    ]
+
+
+def test_too_many_machines_for_pictures(scan):
+    code, out, err = scan("sweep: {delta: {start: 0, stop: 8, num: 9}}\nslices: [{lam: 0.2}]\n")
+    assert (code, pictures()) == (0, [])
+    assert err == (
+        "note: pictures of 9 machines are not drawn; draw one with, for example, "
+        "'bikestab slice out/a/volume.h5 --lam VALUE --at delta=0'\n"
+    )
+    assert "volume.h5: " in out
+
+
+def test_slice_of_one_machine(scan, bikestab):
+    scan(SWEEP + ENSEMBLE)
+    assert bikestab("slice", "out/a", "--lam", "0.2", "--at", "delta=2")[1] == (
+        "out/a/slice_lam_0.2_delta_2.png\n"
+    )
+    assert bikestab("slice", "out/a", "--lam", "0.2", "--at", "delta=2", "--probability")[1] == (
+        "out/a/probability_lam_0.2_delta_2.png\n"
+    )
+    assert bikestab("slice", "out/a", "--V", "5", "--at", "delta=0", "-o", "mine.pdf")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("args", "expected"),
+    [
+        (
+            (),
+            "has several machines, with delta = 0, 2\n  choose one, for example --at delta=0",
+        ),
+        (("--at", "delta=1"), "has no delta = 1\n  allowed: 0, 2"),
+        (("--at", "delta"), "'delta' is not NAME=VALUE, e.g. delta=1"),
+        (("--at", "delta=much"), "'delta=much': 'much' is not a number"),
+    ],
+)
+def test_a_machine_that_is_not_there(scan, bikestab, args, expected):
+    scan(SWEEP)
+    for command in (("slice", "out/a", "--lam", "0.2"), ("export", "out/a", "--intervals", "i.csv")):
+        code, out, err = bikestab(*command, *args)
+        assert (code, out) == (2, "")
+        assert expected in err
+
+
+def test_export_of_one_machine(scan, bikestab):
+    scan(SWEEP)
+    ends = []
+    for delta in (0, 2):
+        code, _, _ = bikestab("export", "out/a", "--intervals", "i.csv", "--at", f"delta={delta}")
+        assert code == 0
+        with Path("i.csv").open() as file:
+            ends.append([float(row["V1"]) for row in csv.DictReader(file)])
+    assert len(ends[0]) > 10
+    assert ends[0] != ends[1]
+
+
+def test_info(scan, bikestab):
+    scan(SWEEP + ENSEMBLE)
+    found = json.loads(bikestab("info", "out/a", "--json")[1])
+    assert found["sweep"] == {"delta": [0, 2]}
+    assert (found["points"], found["designs"], found["ensemble_samples"]) == (600, 60, 20)
+    assert "delta                               0, 2 (sweep)" in bikestab("info", "out/a")[1]
