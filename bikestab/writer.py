@@ -5,10 +5,7 @@ docs/format.md describes it.
 
 from __future__ import annotations
 
-import io
 import os
-import signal
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import product
@@ -27,6 +24,7 @@ from bikestab.model import Floats
 from bikestab.plan import FIELDS, Plan
 from bikestab.routh import CONDITIONS
 from bikestab.sheets import Sheets
+from bikestab.sink import Sink
 from bikestab.speeds import KINDS, Intervals, widened
 from bikestab.volume import parameters_text, uniform
 
@@ -45,7 +43,7 @@ def new_volume(path: Path, plan: Plan) -> Iterator[VolumeWriter]:
     """
     partial = path.with_name(path.name + ".partial")
     try:
-        with _Sink(partial, "w+") as sink, sink.uninterrupted():
+        with Sink(partial, "w+") as sink, sink.uninterrupted():
             with h5py.File(sink, "w", track_order=True) as file:
                 yield VolumeWriter(file, plan, sink)
             sink.check()
@@ -56,45 +54,10 @@ def new_volume(path: Path, plan: Plan) -> Iterator[VolumeWriter]:
         partial.unlink(missing_ok=True)
 
 
-class _Sink(io.FileIO):
-    """A file that keeps what went wrong to itself until it is asked: HDF5 crashes over a failed write."""
-
-    error: BaseException | None = None
-
-    def write(self, data: Any) -> int:
-        rest = memoryview(data).cast("B")
-        try:
-            while rest and not self.error:
-                rest = rest[super().write(rest) :]
-        except OSError as error:
-            self.error = error
-        return len(data)
-
-    def check(self) -> None:
-        if self.error:
-            raise self.error
-
-    @contextmanager
-    def uninterrupted(self) -> Iterator[None]:
-        """Keep Ctrl-C back as well: within h5py the exception would be lost, and what it wrote."""
-        if threading.current_thread() is not threading.main_thread():
-            yield
-            return
-
-        def keep(*_: object) -> None:
-            self.error = self.error or KeyboardInterrupt()
-
-        handler = signal.signal(signal.SIGINT, keep)
-        try:
-            yield
-        finally:
-            signal.signal(signal.SIGINT, handler)
-
-
 class VolumeWriter:
     """Puts axes, fields and columns into an empty HDF5 file."""
 
-    def __init__(self, file: h5py.File, plan: Plan, sink: _Sink) -> None:
+    def __init__(self, file: h5py.File, plan: Plan, sink: Sink) -> None:
         self.file, self.plan, self._sink = file, plan, sink
         self._lead = [axis.name for axis in plan.config.axes]
         self._data: dict[str, h5py.Dataset] = {}  # h5py takes long to find them by name

@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given, settings
 
 from bikestab.bicycle import Bicycle
+from bikestab.linking import SPEED
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials
-from bikestab.sheets import SPEED, Roots, critical_roots, sheets
+from bikestab.sheets import Roots, critical_roots, sheets
 from bikestab.speeds import CAPSIZE, WEAVE, Intervals, critical_speeds, stable_intervals
 from tests.strategies import machines
 
