@@ -131,7 +131,7 @@ def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progres
     with closing(finished):  # at once, whatever happens: there may be processes
         for number, tile in finished:
             notes = {**tile.notes, "columns": len(tile.columns)}
-            spool.add(number, notes, tile.columns + tile.chunks)
+            spool.add(number, notes, tile.columns, tile.chunks)
             done += prod(plan[number].shape)
             progress(done, plan.points)
 

@@ -102,12 +102,17 @@ class Atlas:
         ends = (intervals.V1, intervals.lower), (intervals.V2, intervals.upper)  # stability begins rising
         for k, V in enumerate(_directed(roots)):
             edge = _is_end(V, ends[k][0], ends[k][1] == EDGES.get(self.name))
-            slot = self._directions[k].slots(place, V)
-            for i, (direction, number) in enumerate(self._order):
+            direction = self._directions[k]
+            slots = [(i, number) for i, (of, number) in enumerate(self._order) if of == k]
+            if not direction.linked:  # one root at most
+                for i, _ in slots if V.shape[-1] else ():
+                    out.V[..., i], out.edge[..., i] = V[..., 0], edge[..., 0]
+                continue
+            slot = direction.slots(place, V)
+            for i, number in slots:
                 at = slot == number
-                if direction == k and at.any():
-                    cell = at.any(axis=-1)
-                    out.V[cell, i], out.edge[cell, i] = V[at], edge[at]
+                cell = at.any(axis=-1)
+                out.V[cell, i], out.edge[cell, i] = V[at], edge[at]
         return out
 
 

@@ -11,6 +11,7 @@ import json
 import os
 import struct
 from collections.abc import Mapping
+from functools import reduce
 from io import FileIO
 from pathlib import Path
 from typing import Any, Self
@@ -56,7 +57,7 @@ class Spool:
             if not self._read(first, replace):
                 self._file.truncate(0)
                 try:
-                    self._append(first, 0)
+                    self._append([first], 0)
                 except OSError:
                     self.remove()
                     raise
@@ -70,19 +71,20 @@ class Spool:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def add(self, number: int, notes: object, data: bytes) -> None:
-        """Keep a finished tile; ``notes`` is anything that JSON can hold.
+    def add(self, number: int, notes: object, *data: bytes) -> None:
+        """Keep a finished tile, its data in one or several parts; ``notes`` is anything that JSON can hold.
 
         Raises OSError where the disk is full, and ScanError where the file is not in its place any more.
         """
         text = json.dumps(notes).encode()
-        record = _HEAD.pack(number, len(text), len(data)) + text + data
-        record = _SUM.pack(isal_zlib.crc32(record)) + record
-        end = self._end + len(record)
+        length = sum(map(len, data))
+        record = [_HEAD.pack(number, len(text), length) + text, *data]
+        checksum = reduce(lambda so_far, part: isal_zlib.crc32(part, so_far), record, 0)
+        begin = self._end + _SUM.size + len(record[0])
         # before it is written: Ctrl-C takes effect right after that, and the tile is finished then
-        self.notes[number], self._at[number] = notes, (end - len(data), end)
+        self.notes[number], self._at[number] = notes, (begin, begin + length)
         try:
-            self._append(record, self._end)
+            self._append([_SUM.pack(checksum), *record], self._end)
         except OSError:
             del self.notes[number], self._at[number]
             raise
@@ -109,16 +111,17 @@ class Spool:
         """Whether the file is where it was made, so that it will be found again."""
         return _is_at(self._file, self.path)
 
-    def _append(self, data: bytes, start: int) -> None:
-        rest = memoryview(data)
+    def _append(self, data: list[bytes], start: int) -> None:
         self._file.seek(start)
         try:
-            while rest:
-                rest = rest[self._file.write(rest) :]
+            for part in data:
+                rest = memoryview(part)
+                while rest:
+                    rest = rest[self._file.write(rest) :]
         except OSError:
             self._file.truncate(start)
             raise
-        self._end = start + len(data)
+        self._end = start + sum(map(len, data))
 
     def _read(self, first: bytes, replace: bool) -> bool:
         """Take in what is there already; False where there is nothing to keep."""

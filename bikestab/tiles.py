@@ -142,11 +142,12 @@ def joined(chunks: list[bytes]) -> bytes:
     return b"".join([head.tobytes(), *chunks])
 
 
-def parted(data: bytes) -> list[bytes]:
+def parted(data: bytes) -> list[memoryview]:
     """The chunks that ``joined`` made one of."""
     number = int(np.frombuffer(data, np.int64, 1)[0])
     ends = np.frombuffer(data, np.int64, number, 8).cumsum() + 8 * (number + 1)
-    return [data[start:end] for start, end in zip([8 * (number + 1), *ends[:-1]], ends, strict=True)]
+    view = memoryview(data)
+    return [view[start:end] for start, end in zip([8 * (number + 1), *ends[:-1]], ends, strict=True)]
 
 
 def _field(name: str, table: Floats, tile: Tile, mask: NDArray[np.uint8]) -> NDArray:

@@ -113,7 +113,7 @@ class VolumeWriter:
         _describe(data, "", "parameters of each machine in SI units, in the order of the attribute 'names'")
         data.attrs["names"] = _ascii(*self.plan.config.machine.numbers())
 
-    def write_fields(self, place: tuple[int, ...], shape: tuple[int, ...], chunks: list[bytes]) -> None:
+    def write_fields(self, place: tuple[int, ...], shape: tuple[int, ...], chunks: list[memoryview]) -> None:
         """Put a tile's chunks into the fields; ``place`` is its first index, ``shape`` its own."""
         lead, first = place[:-3], place[-3:]
         ids = {name: self._data[name].id for name in self.plan.fields}
