@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import product
@@ -55,4 +56,4 @@ def _parts(values: NDArray, chunk: tuple[int, ...]) -> NDArray:
 
 @lru_cache
 def _constant(size: int, value: int) -> bytes:
-    return isal_zlib.compress(bytes([value]) * size, LEVEL)
+    return zlib.compress(bytes([value]) * size)  # slower, but smaller, and once for all such chunks

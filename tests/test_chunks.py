@@ -58,7 +58,7 @@ def test_a_chunk_holds_the_bytes_that_hdf5s_own_filters_give(tmp_path, dtype):
         mask, theirs = data.id.read_direct_chunk(place)
         assert mask == 0
         assert zlib.decompress(part) == zlib.decompress(theirs)
-        assert len(part) < 1.5 * len(theirs) + 20
+        assert len(part) < 1.5 * len(theirs) + 150  # it begins with a table of codes
     data.file.close()
 
 
