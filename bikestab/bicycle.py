@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.limits import check_product, check_tilt, check_trail, check_value, exceeds
+from bikestab.limits import check_product, check_tilt, check_trail, check_value, doubts
 from bikestab.notation import MEIJAARD, OPTIONAL, two_parts
 from bikestab.units import ANGLE, PURE, quantity, shown
 
@@ -93,15 +93,16 @@ class Bicycle:
             ("1", "rear", self.A1, self.B1, self.C1, self.m1, self.R1, self.h1),
             ("2", "front", self.A2, self.B2, self.C2, self.m2, self.R2, self.h2),
         ):
-            if exceeds(C, A + B):
+            inertias, wheel, below = doubts(A, B, C, m, R, h)
+            if inertias:
                 found.append(
                     f"no rigid {part} part has A{i} + B{i} < C{i}: {A:g} + {B:g} = {A + B:g} < {C:g} kg m²"
                 )
-            if exceeds(C, m * R**2):
+            if wheel:
                 found.append(
                     f"no wheel within the {part} part has C{i} > m{i} R{i}²: {C:g} > {m * R**2:g} kg m²"
                 )
-            if h < 0:
+            if below:
                 found.append(f"the {part} centre of mass is below the ground: h{i} = {h:g} m")
         return tuple(found)
 

@@ -59,19 +59,22 @@ def check(
     """
     found = _signs(table, mask, V)
     for name in CONDITIONS:
-        for root in critical.speeds[name]:
+        speeds = critical.speeds[name]
+        gap = np.full((len(speeds) + 1, table.shape[-1]), np.inf)
+        gap[1:-1] = np.where(np.isnan(d := np.diff(speeds, axis=0)), np.inf, d)
+        for root, room in zip(speeds, np.minimum(gap[1:], gap[:-1]), strict=True):
             found = found.joined(
-                _zeros(table, name, np.where((root > above) & (root <= V[-1]), root, np.nan))
+                _zeros(table, name, np.where((root > above) & (root <= V[-1]), root, np.nan), room)
             )
     return found
 
 
-def _zeros(table: Floats, name: str, root: Floats) -> Agreement:
+def _zeros(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
     """Whether the condition changes its sign within AGREEMENT of each root (cell,); NaN = none."""
     number = int(np.count_nonzero(root > 0))
     if not number:
         return Agreement()
-    step = np.minimum(AGREEMENT, 0.5 * root)
+    step = np.fmin(AGREEMENT, 0.5 * np.minimum(root, room))
     below, above = (condition(table, name, root + side * step) for side in (-1, 1))
     with np.errstate(divide="ignore", invalid="ignore"):
         between = np.sign(below) * np.sign(above) < 0
@@ -79,14 +82,14 @@ def _zeros(table: Floats, name: str, root: Floats) -> Agreement:
     largest = float((step * np.abs((below + above) / (below - above))).max(initial=0))
     poor = np.flatnonzero((root > 0) & ~between)
     found = Agreement(number, largest)
-    return found.joined(_poor(table[..., poor], name, root[poor])) if len(poor) else found
+    return found.joined(_poor(table[..., poor], name, root[poor], room[poor])) if len(poor) else found
 
 
-def _poor(table: Floats, name: str, root: Floats) -> Agreement:
+def _poor(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
     """What is the matter with roots where the condition has one sign on both sides."""
     size, taylor = _size(table, name, root), _taylor(condition_polynomials(table)[name], root)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        sharp = _ROUNDING * size / np.abs(taylor[1]) < AGREEMENT
+        sharp = _ROUNDING * size / np.abs(taylor[1]) < np.minimum(AGREEMENT, 0.5 * np.minimum(root, room))
         reach = np.where(sharp, _FAR, _reach(taylor, _ZERO * size))
     difference = np.full(len(root), np.inf)
     step = np.minimum(AGREEMENT, 0.5 * root)

@@ -16,15 +16,19 @@ import numpy as np
 from bikestab import __version__
 from bikestab.errors import KEPT, InputError, ScanError
 from bikestab.tiles import Finished, compute
-from bikestab.workers import Numbered, undisturbed
+from bikestab.workers import Numbered, undisturbed, without_script
 
-ANSWER, PATIENCE = 8.0, 60.0  # s to wait for a scheduler, and for a worker where there is none
+ANSWER, PATIENCE = 8.0, 30.0  # s to wait for a scheduler, and for a worker where there is none
 _LOOK = 2.0  # s between two looks at how many there are
 
 
 def versions() -> dict[str, str]:
     """What has to be the same for the same bytes."""
-    return {"bikestab": __version__, "numpy": np.__version__, "isal": version("isal")}
+    vector = np.show_config(mode="dicts")["SIMD Extensions"]["found"]
+    return {
+        "bikestab": __version__, "numpy": np.__version__, "isal": version("isal"),
+        "processor": " ".join(vector) or "plain",
+    }  # fmt: skip
 
 
 def on_cluster(tiles: Iterable[Numbered], scheduler: str) -> Generator[tuple[int, Finished]]:
@@ -103,13 +107,14 @@ def _client(scheduler: str) -> Iterator[Any]:
         if not number.isdecimal() or int(number) < 1:
             problem = f"{scheduler!r} is no number of processes"
             raise InputError(problem, hint="for example --scheduler local:4")
-        with undisturbed():
-            cluster = LocalCluster(
-                n_workers=int(number), threads_per_worker=1, memory_limit=0, dashboard_address=None,
-                silence_logs="CRITICAL",
-            )  # fmt: skip
-        with cluster, Client(cluster, set_as_default=False) as client:
-            yield client
+        with without_script():  # to the end: a worker that is lost is started again
+            with undisturbed():
+                cluster = LocalCluster(
+                    n_workers=int(number), threads_per_worker=1, memory_limit=0,
+                    dashboard_address="127.0.0.1:0", silence_logs="CRITICAL",
+                )  # fmt: skip
+            with cluster, Client(cluster, set_as_default=False) as client:
+                yield client
         return
     try:
         client = Client(scheduler, timeout=ANSWER, set_as_default=False)

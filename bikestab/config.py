@@ -35,6 +35,7 @@ from bikestab.variation import (
     SweptAxis,
     check_names,
     check_samples,
+    doubts_of,
     members,
     swept_axes,
 )
@@ -186,6 +187,13 @@ class ScanConfig(Strict):
     def members(self) -> list[Member]:
         """The machines of the sweep, the last axis fastest; without one, ``machine`` alone."""
         return members(self.machine, self.sweep)
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """What no rigid bodies on the ground can have, of the machines that are computed."""
+        if not self.sweep and not self.ensemble:
+            return list(self.machine.warnings)
+        return doubts_of(self.members, self.ensemble)
 
     @property
     def text(self) -> str:

@@ -36,6 +36,13 @@ def exceeds(a: Any, b: Any) -> Any:
     return a > b * (1 + 1e-9)  # published inertias of thin discs sit exactly on the limit
 
 
+def doubts(A: Any, B: Any, C: Any, m: Any, R: Any, h: Any) -> tuple[Any, Any, Any]:
+    """Whether a part has inertias that no rigid body, a wheel that no body of its mass, or a centre that
+    nothing on the ground has; of floats or arrays.
+    """
+    return exceeds(C, A + B), exceeds(C, m * R**2), h < 0
+
+
 def allowed(value: Any, check: str) -> Any:
     """Whether a parameter is of the sign wanted and within MOST; of floats or arrays."""
     within = abs(value) <= MOST

@@ -68,7 +68,7 @@ class Plan:
     @cached_property
     def tile(self) -> tuple[int, int, int]:
         """The largest tile."""
-        n, m = (16, 16) if self.config.ensemble else (64, 128)
+        n, m, _ = map(min, (16, 16, 1) if self.config.ensemble else (64, 128, 1), self.config.grid.shape)
         each = sum(np.dtype(FIELDS[name][0]).itemsize for name in self.fields)
         chunk = self.chunk[2]
         speeds = max(1, _TILE_BYTES // (n * m * each) // chunk) * chunk

@@ -53,7 +53,7 @@ def draw_slice(
         )
     near = int(np.argmin(np.abs(axis - value)))
     if field == "probability":
-        value = float(axis[near])
+        value = on_grid(volume, fixed, value)
     x_name, y_name = IN_PLANE[fixed]
     section = Section(volume.bicycle, volume.model, fixed, value, x_name, y_name)
     x, y = volume.axis(x_name), volume.axis(y_name)
@@ -67,6 +67,12 @@ def draw_slice(
         _stable_region(figure, ax, section, x, y)
     _decorate(ax, volume, section)
     return figure
+
+
+def on_grid(volume: Volume, fixed: Axis, value: float) -> float:
+    """The value of the nearest plane of the grid, which is what a picture of the probability shows."""
+    axis = volume.axis(fixed)
+    return float(axis[np.argmin(np.abs(axis - value))])
 
 
 def save(figure: Figure, path: Path) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle, parameters
 from bikestab.errors import InputError
-from bikestab.limits import MOST_TRAIL, allowed, exceeds
+from bikestab.limits import MOST_TRAIL, allowed, doubts, exceeds
 from bikestab.notation import CHECKS, PARTS, reduced
 
 _Floats = NDArray[np.float64]
@@ -89,6 +89,20 @@ class Machines:
         if not good.all():
             raise _refusal(bicycle, samples, np.flatnonzero(~good))
         return cls(shape=shape, **{p.name: numbers[p.name] for p in _PARAMETERS})
+
+    def doubtful(self) -> dict[str, int]:
+        """How many machines have what no rigid bodies on the ground can have, by what it is."""
+        found = {}
+        for i, part in (("1", "rear"), ("2", "front")):
+            flags = doubts(*(getattr(self, f"{letter}{i}") for letter in "ABCmRh"))
+            words = (
+                f"no rigid {part} part has A{i} + B{i} < C{i}",
+                f"no wheel within the {part} part has C{i} > m{i} R{i}²",
+                f"the {part} centre of mass is below the ground",
+            )
+            for text, flag in zip(words, flags, strict=True):
+                found[text] = int(np.count_nonzero(np.broadcast_to(flag, self.shape)))
+        return {text: number for text, number in found.items() if number}
 
     def part(self, samples: slice) -> Machines:
         """Some of the machines."""

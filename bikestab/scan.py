@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import closing, suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from math import prod
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from bikestab import yamltext
 from bikestab.boundary import Agreement
 from bikestab.cluster import on_cluster, versions
 from bikestab.config import AXES, ScanConfig
-from bikestab.errors import KEPT, InputError, ScanError
+from bikestab.errors import KEPT, InputError, ScanError, dotted
 from bikestab.plan import FIELDS, Plan
 from bikestab.routh import CONDITIONS
 from bikestab.sheets import Atlas
@@ -93,7 +95,12 @@ def run_scan(
             key=("output",),
             hint="choose another folder",
         ) from None
-    if not force and (there := _same(path, plan)) and not tiles.exists():
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path} is no file", key=("output",), hint="move it away, or choose another output")
+    if not force and (there := _same(path, plan)):
+        if tiles.exists():
+            with suppress(InputError), Spool(tiles, _identity(config)) as spool:  # another's stay
+                spool.remove()
         return there
     try:
         with Spool(tiles, _identity(config), replace=force) as spool:
@@ -234,7 +241,7 @@ def _identity(config: ScanConfig) -> dict[str, str]:
     return {
         "config": config.sha256,
         "bicycle": parameters_text(config.machine),
-        **{f"version of {name}": number for name, number in versions().items()},
+        **{name if name == "processor" else f"version of {name}": what for name, what in versions().items()},
     }
 
 
@@ -251,16 +258,39 @@ def _same(path: Path, plan: Plan) -> ScanResult | None:
                 return ScanResult(
                     path, False, plan.points, int(volume.file.attrs["stable_points"]), Agreement()
                 )
-            title = volume.text("title")
+            other = _differences(volume, config)
     except InputError as error:
         raise InputError(
             f"{path} exists, and {error.problem}", key=("output",), hint="--force replaces it"
         ) from None
     raise InputError(
-        f"{path} exists, and was made from another config ({title!r})",
+        f"{path} exists, and was made from another config ({other})",
         key=("output",),
         hint="choose another output, or replace it with --force",
     )
+
+
+def _differences(volume: Volume, config: ScanConfig) -> str:
+    """In which keys the volume's config differs from another, in words."""
+    there, here = (
+        dict(_leaves(yamltext.parse(text, "config").data)) for text in (volume.text("config"), config.text)
+    )
+    keys = [key for key in there | here if there.get(key) != here.get(key)]
+    if not keys:
+        same = volume.text("bicycle_parameters") == parameters_text(config.machine)
+        return "only its comments or layout differ" if same else "the bicycle's parameters differ"
+    if {key.partition("[")[0] for key in keys} <= {"slices", "expect"}:
+        return f"only {', '.join(keys)}: 'bikestab slice' draws any plane"
+    words = [f"{key}: {there.get(key, 'none')} there, {here.get(key, 'none')} here" for key in keys[:3]]
+    return "; ".join([*words, *(["..."] if len(keys) > 3 else [])])
+
+
+def _leaves(node: Any, key: tuple[str | int, ...] = ()) -> Iterator[tuple[str, Any]]:
+    if isinstance(node, (dict, list)) and node:
+        for name, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield from _leaves(value, (*key, name if isinstance(name, int) else str(name)))
+    else:
+        yield dotted(key), node
 
 
 def _unfinished(path: Path, tiles: Path, error: OSError) -> ScanError:

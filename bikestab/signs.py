@@ -20,7 +20,8 @@ NEAR = 1e-9  # relative; that close to a root rounding might decide, and the con
 def violated_between(table: Floats, critical: Critical, V: Floats) -> NDArray[np.uint8]:
     """The bit mask of ``routh.violated`` for a table (5, 4, cell) at the speeds V [m/s]; (cell, V).
 
-    V ascends and is not negative. Within NEAR of a root and at rest the conditions themselves decide.
+    V ascends and is not negative. At rest, and at the speed next to a root if it is within NEAR of it, the
+    conditions themselves decide.
     """
     n = table.shape[-1]
     first = np.zeros(n, np.uint8)  # the mask just above V = 0

@@ -9,6 +9,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import stat
 import struct
 from collections.abc import Mapping
 from functools import reduce
@@ -165,8 +166,11 @@ def removed(path: Path) -> ScanError:
 
 def _locked(path: Path) -> FileIO:
     while True:
-        file = FileIO(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+")
+        flags = os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
+        file = FileIO(os.open(path, flags, 0o666), "r+")
         try:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise InputError(f"{path} is no file", key=("output",), hint="move it away")
             _lock(file, path)
             if _is_at(file, path):
                 return file  # else the one who had it has just removed it

@@ -193,7 +193,8 @@ def _columns(table: Floats, exact: Critical, spread: Floats) -> Columns:
 
 def _disagreement(found: Agreement) -> ScanError:
     problem = (
-        "the conditions' signs on the grid are not those that the exact critical speeds give"
+        "the conditions' signs at the grid's speeds or beside the exact critical speeds are not those that "
+        "these give"
         if np.isinf(found.largest)
         else f"zeros of the conditions differ from the exact critical speeds by {found.largest:.3g} m/s, "
         f"more than the {AGREEMENT:g} m/s that both should reach"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import product
@@ -211,6 +212,26 @@ def _of_sweep(error: InputError, values: Mapping[str, float]) -> InputError:
         return InputError(error.problem, key=("sweep", name), hint=error.hint)
     point = ", ".join(f"{name} = {value:g}" for name, value in values.items())
     return InputError(f"with {point}: {name}: {error.problem}", key=("sweep",), hint=error.hint)
+
+
+def doubts_of(machines: list[Member], ensemble: Ensemble | None) -> list[str]:
+    """What no rigid bodies on the ground can have, and how many of the machines have it."""
+    first: dict[str, str] = {}
+    counts: Counter[str] = Counter()
+    drawn: Counter[str] = Counter()
+    for member in machines:
+        for text in member.bicycle.warnings:
+            kind = text.partition(":")[0]
+            first.setdefault(kind, text)
+            counts[kind] += 1
+        if ensemble:
+            drawn.update(ensemble.machines(member.bicycle).doubtful())
+    of = f"{{}} of {len(machines)} machines of the sweep: {{}}" if len(machines) > 1 else "{1}"
+    found = [of.format(counts[kind], text) for kind, text in first.items()]
+    if ensemble:
+        number = len(machines) * ensemble.samples
+        found += [f"{count} of {number} drawn machines: {text}" for text, count in drawn.items()]
+    return found
 
 
 def check_samples(machines: list[Member], ensemble: Ensemble | None) -> None:

@@ -83,21 +83,31 @@ def _worker() -> Iterator[Connection]:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Let processes that are started here know nothing of Ctrl-C, nor of the script that was started.
-
-    They would import it, which may not be made for that, and it has nothing that they need.
-    """
-    main, mask = sys.modules["__main__"], None
+    """Let processes that are started here know nothing of Ctrl-C, nor of the script that was started."""
+    mask = None
     if hasattr(signal, "pthread_sigmask"):
         resource_tracker.ensure_running()  # which lets signals through again when it starts
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        with without_script():
+            yield
+    finally:
+        if mask is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+@contextmanager
+def without_script() -> Iterator[None]:
+    """Let processes that are started here not import the script that was started.
+
+    It may not be made for that, and has nothing that they need.
+    """
+    main = sys.modules["__main__"]
     sys.modules["__main__"] = ModuleType("__main__")
     try:
         yield
     finally:
         sys.modules["__main__"] = main
-        if mask is not None:
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
 
 def _serve(parent: Connection) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -42,16 +42,28 @@ def new_volume(path: Path, plan: Plan) -> Iterator[VolumeWriter]:
     Raises OSError where it cannot be written. Ctrl-C takes effect between two tiles.
     """
     partial = path.with_name(path.name + ".partial")
+    partial.unlink(missing_ok=True)
     try:
-        with Sink(partial, "w+") as sink, sink.uninterrupted():
+        with Sink(partial, "x+") as sink, sink.uninterrupted():
             with h5py.File(sink, "w", track_order=True) as file:
                 yield VolumeWriter(file, plan, sink)
             sink.check()
             os.fsync(sink.fileno())
             sink.check()
         partial.replace(path)
+        _sync(path.parent)
     finally:
         partial.unlink(missing_ok=True)
+
+
+def _sync(folder: Path) -> None:
+    """Let the new name be on disk before the tiles are deleted."""
+    with suppress(OSError):  # not every system opens folders
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
 
 
 class VolumeWriter:
@@ -91,7 +103,7 @@ class VolumeWriter:
             "bikestab_version": __version__,
             "bicycle": bicycle.name,
             "bicycle_parameters": parameters_text(bicycle),
-            "warnings": "\n".join(bicycle.warnings),
+            "warnings": "\n".join(config.warnings),
             "model": config.model,
             "config": config.text,
             "config_sha256": config.sha256,

@@ -10,6 +10,7 @@ import pytest
 from bikestab import scan, workers
 from bikestab.errors import InputError
 from bikestab.scan import run_scan, tiles_path
+from bikestab.spool import Spool
 from bikestab.volume import Volume
 from tests.scans import config_of as small
 from tests.scans import files, load
@@ -52,6 +53,31 @@ def test_the_output_of_another_config_is_refused(more):
     assert path.read_bytes() == before
     assert run_scan(small(more=more), force=True).computed
     assert not run_scan(small(more=more)).computed
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ("delta: 1\n", "(delta: none there, 1 here)"),
+        ("# a remark\n", "(only its comments or layout differ)"),
+        ("slices: [{lam: 0.2}]\n", "(only slices[0].lam: 'bikestab slice' draws any plane)"),
+    ],
+)
+def test_what_differs_is_told(more, words):
+    run_scan(small())
+    with pytest.raises(InputError) as caught:
+        run_scan(small(more=more))
+    assert words in str(caught.value)
+
+
+def test_the_tiles_of_another_scan_are_no_hindrance_to_a_complete_volume():
+    path = run_scan(small()).path
+    tiles = path.with_name("volume.h5.tiles")
+    with Spool(tiles, {"config": "another"}):
+        pass
+    before = tiles.read_bytes()
+    assert not run_scan(small()).computed
+    assert tiles.read_bytes() == before
 
 
 def test_a_bicycles_file_that_has_changed_is_another_config():

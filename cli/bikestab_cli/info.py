@@ -38,6 +38,10 @@ def command(volume: str, show_config: bool, as_json: bool) -> None:
     width = max(map(len, summary)) + 2
     for key, value in summary.items():
         shown = ", ".join(value) if isinstance(value, list) else value
+        if key == "largest_boundary_difference":
+            shown = f"{value:.2g} m/s"
+        if (key == "ensemble_samples" and not value) or key in sweep:
+            continue
         click.echo(f"{key.replace('_', ' '):<{width}}{shown}")
     for name, values in sweep.items():
         click.echo(f"{name:<{width}}{', '.join(f'{value:g}' for value in values)} (sweep)")

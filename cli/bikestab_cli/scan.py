@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
-from bikestab_cli.options import json_option, print_json, warn
+from bikestab_cli.options import json_option, print_json
 from bikestab_cli.progress import progress
 
 if TYPE_CHECKING:
@@ -81,7 +81,8 @@ def command(
     done: list[dict[str, object]] = []
     try:
         for name, config in loaded.values():
-            warn(config.machine)
+            for text in config.warnings:
+                click.echo(f"warning: {config.machine.name}: {text}", err=True)
             start = time.perf_counter()
             result = _run(name, config, force, jobs, scheduler or "", quiet)
             pictures = _draw(config, result)
@@ -130,7 +131,7 @@ def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:
 
 
 def _draw_machine(config: ScanConfig, volume: Volume, values: dict[str, float]) -> list[Path]:
-    from bikestab.plot import draw_slice, save, slice_name
+    from bikestab.plot import draw_slice, on_grid, save, slice_name
     from bikestab.plot_region import draw_region
 
     pictures = []
@@ -148,7 +149,8 @@ def _draw_machine(config: ScanConfig, volume: Volume, values: dict[str, float]) 
     for plane in config.slices:
         fixed, value = plane.fixed
         for field in fields[: 2 if config.ensemble else 1]:
-            pictures.append(folder / slice_name({fixed: value, **values}, field))
+            at = value if field == "growth_rate" else on_grid(volume, fixed, value)
+            pictures.append(folder / slice_name({fixed: at, **values}, field))
             save(draw_slice(volume, fixed, value, field), pictures[-1])
     return pictures
 
@@ -179,5 +181,5 @@ def _summary(name: str, config: ScanConfig, result: ScanResult, pictures: list[P
         "points": result.points,
         "stable_points": result.stable_points,
         "largest_boundary_difference": result.agreement.largest if result.computed else None,
-        "warnings": list(config.machine.warnings),
+        "warnings": config.warnings,
     }

@@ -30,14 +30,15 @@ def command(
     """Draw any plane of a volume.
 
     One of the three axes is fixed. VOLUME is a volume.h5 or its folder. The value need not be on the
-    grid: the growth rate is then computed for that plane. The boundary curves are exact in either case.
+    grid: the growth rate is then computed for that plane, while a probability is that of the nearest
+    plane. The boundary curves are exact in either case.
 
     \b
     Examples:
       bikestab slice out/quick --lam 0.2
       bikestab slice out/quick/volume.h5 --V 18km/h -o speed.png
     """
-    from bikestab.plot import draw_slice, save, slice_name
+    from bikestab.plot import draw_slice, on_grid, save, slice_name
     from bikestab.volume import Volume
 
     given = {name: value for name, value in (("lam", lam), ("sigma", sigma), ("V", V)) if value is not None}
@@ -48,6 +49,9 @@ def command(
     ((fixed, value),) = given.items()
     with Volume(volume) as opened:
         field: Literal["growth_rate", "probability"] = "probability" if probability else "growth_rate"
+        if probability and (near := on_grid(opened, fixed, value)) != value:  # type: ignore[arg-type]
+            click.echo(f"note: the nearest plane of the grid is drawn, {fixed} = {near:.6g}", err=True)
+            value = near
         name = slice_name({fixed: value, **machine}, field)
         path = Path(output) if output else opened.path.parent / name
         if not path.suffix:

@@ -101,3 +101,22 @@ def test_info(scan, bikestab):
     assert found["sweep"] == {"delta": [0, 2]}
     assert (found["points"], found["designs"], found["ensemble_samples"]) == (600, 60, 20)
     assert "delta                               0, 2 (sweep)" in bikestab("info", "out/a")[1]
+
+
+def test_a_probability_between_two_planes_is_that_of_the_nearest(scan, bikestab):
+    scan(ENSEMBLE)
+    code, out, err = bikestab("slice", "out/a", "--lam", "0.21", "--probability")
+    assert (code, out) == (0, "out/a/probability_lam_0.2.png\n")
+    assert err == "note: the nearest plane of the grid is drawn, lam = 0.2\n"
+
+
+def test_warnings_are_of_the_machines_that_are_computed(scan):
+    """A centre of mass below the ground; not of the config's own machine, which is above it."""
+    assert scan("sweep: {zB: [-0.9, 0.9]}\n")[2] == (
+        "warning: meijaard2007: 1 of 2 machines of the sweep: "
+        "the rear centre of mass is below the ground: h1 = -0.872414 m\n"
+    )
+    more = "ensemble: {zB: {uniform: [-0.9, 1.9]}, samples: 100}\noutput: out/b\n"
+    err = scan(more)[2]
+    assert err.endswith(" of 100 drawn machines: the rear centre of mass is below the ground\n")
+    assert 40 < int(err.split(": ")[2].split(" of ")[0]) < 90
