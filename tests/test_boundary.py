@@ -282,3 +282,15 @@ def test_parts_of_the_speeds_see_each_root_once():
         ]
         total = reduce(Agreement.joined, parts)
         assert total[:4] == whole[:4]
+
+
+def test_roots_closer_together_than_the_check_looks():
+    """With a trace of damping hurwitz3 has roots of 1e-10 m/s that lie as close to each other."""
+    bicycle = Bicycle.preset("sharp1971").with_delta(1e-9)
+    table = cells(bicycle, np.radians(np.linspace(0, 40, 41)), np.linspace(-0.6, 0.2, 41))
+    speeds = np.linspace(0, 20, 21)
+    exact = critical(table)
+    close = np.diff(exact.speeds["hurwitz3"], axis=0)
+    assert np.nanmin(close) < 2 * AGREEMENT
+    seen = check(table, exact, violated_between(table, exact, speeds), speeds)
+    assert seen.largest <= AGREEMENT

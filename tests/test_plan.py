@@ -147,3 +147,8 @@ def test_seconds_grow_with_the_work():
     ensemble = "ensemble: {m1: {normal: [80, 8]}, samples: %d, seed: 1}\n"
     few, many = (plan_of((50, 50, 100), ensemble % n).seconds() for n in (10, 1000))
     assert base < few < many
+
+
+def test_narrow_grids_have_long_tiles():
+    """Every tile finds the roots of its columns anew."""
+    assert len(plan_of((2, 2, 400_000), "fields: [stable, violated]\n")) == 1

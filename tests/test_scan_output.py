@@ -208,3 +208,35 @@ def test_the_folder_is_not_left_open():
         run_scan(config(), force=True)
         run_scan(config())
     assert len(list(Path("/proc/self/fd").iterdir())) == before
+
+
+# --- what cannot be a volume
+
+
+@pytest.mark.parametrize("force", [False, True])
+def test_a_folder_in_the_volumes_place(force):
+    Path("out/volume.h5").mkdir(parents=True)
+    with pytest.raises(InputError, match=r"out/volume.h5 is no file"):
+        run_scan(small(), force=force)
+    assert files() == []
+
+
+def test_links_do_not_lead_out_of_the_folder():
+    """What they lead to stays as it is."""
+    Path("out").mkdir()
+    Path("mine").write_text("mine")
+    tiles = Path("out/volume.h5.tiles")
+    tiles.symlink_to("../mine")
+    with pytest.raises(InputError, match=r"out/volume.h5.tiles cannot be written"):
+        run_scan(small(), force=True)
+    tiles.unlink()
+    Path("out/volume.h5.partial").symlink_to("../mine")
+    assert not run_scan(small()).path.is_symlink()
+    assert Path("mine").read_text() == "mine"
+
+
+def test_a_pipe_in_the_tiles_place():
+    Path("out").mkdir()
+    os.mkfifo("out/volume.h5.tiles")
+    with pytest.raises(InputError, match=r"out/volume.h5.tiles is no file"):
+        run_scan(small())
