@@ -7,8 +7,9 @@ Workers are started and have seen every kind of tile before anything is timed.
 
 from __future__ import annotations
 
+import multiprocessing
 from collections.abc import Callable
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import ExitStack
 from typing import Any
 
@@ -17,7 +18,6 @@ from common import Aim, Report, Table, Task, measure, short
 from points import SHAPE, growth, masks, tile
 
 from bikestab.tiles import Tile, compute
-from bikestab.workers import _pool
 
 MASKS = ("stable", "violated")
 
@@ -42,9 +42,13 @@ def run(quick: bool) -> Report:
         "stable + violated, whole tiles of a scan": (compute, tile((*SHAPE, speeds), 0.0, MASKS), number),
     }
     report = Report(f"Scaling: {number} tiles, workers running before the timing")
+    spawn = multiprocessing.get_context("spawn")
     with ExitStack() as stack:
         pools: dict[str, tuple[Executor, Executor]] = {
-            "processes": (stack.enter_context(_pool(1)), stack.enter_context(_pool(2))),
+            "processes": (
+                stack.enter_context(ProcessPoolExecutor(1, spawn)),
+                stack.enter_context(ProcessPoolExecutor(2, spawn)),
+            ),
             "threads": (
                 stack.enter_context(ThreadPoolExecutor(1)),
                 stack.enter_context(ThreadPoolExecutor(2)),

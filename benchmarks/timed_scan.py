@@ -89,14 +89,15 @@ def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
         )  # fmt: skip
         clock.around(tiles, "packed", "compression")
         return
-    shutdown = pool.ProcessPoolExecutor.shutdown
+    process = multiprocessing.get_context("spawn").Process
+    kill = process.kill
 
-    def noted(self: Any, *args: Any, **keywords: Any) -> None:
+    def noted(self: Any) -> None:
         with suppress(OSError):
-            workers.extend(peak(child.pid) for child in multiprocessing.active_children() if child.pid)
-        shutdown(self, *args, **keywords)
+            workers.append(peak(self.pid))
+        kill(self)
 
-    pool.ProcessPoolExecutor.shutdown = noted  # type: ignore[method-assign]
+    process.kill = noted  # type: ignore[method-assign]  # so a worker ends
 
 
 def timed(start: float, jobs: int, arguments: list[str]) -> dict[str, Any]:
