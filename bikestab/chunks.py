@@ -12,8 +12,9 @@ import numpy as np
 from isal import isal_zlib
 from numpy.typing import NDArray
 
-# Levels 1 and 2 make chunks some 15 % smaller, but not the same in every process: at the start of a stream they
-# hash an address in memory in place of the data (isal 1.9.1; 11 of 1644 processes got another chunk, none at 0).
+# Levels 1 and 2 make chunks some 15 % smaller, but not the same in every process: at the start of a stream
+# they hash an address in memory in place of the data (isal 1.9.1; 11 of 1644 processes got another chunk,
+# none at level 0).
 LEVEL = 0
 
 
