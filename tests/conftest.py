@@ -3,6 +3,8 @@
 import pytest
 
 from bikestab import plan, tiles, workers
+from bikestab.scan import run_scan
+from tests import volumes
 
 
 @pytest.fixture
@@ -29,3 +31,17 @@ def computed(monkeypatch):
     compute = tiles.compute
     monkeypatch.setattr(workers, "compute", count)
     return begins
+
+
+@pytest.fixture(scope="session")
+def equal(tmp_path_factory):
+    """A volume with equal steps and all fields, and its config."""
+    config = volumes.config_of(volumes.EQUAL, tmp_path_factory.mktemp("equal"))
+    return run_scan(config).path, config
+
+
+@pytest.fixture(scope="session")
+def own(tmp_path_factory):
+    """A volume with axes of one's own values and a cell with two intervals, and its config."""
+    config = volumes.config_of(volumes.OWN, tmp_path_factory.mktemp("own"))
+    return run_scan(config).path, config
