@@ -72,7 +72,7 @@ class Plan:
         each = sum(np.dtype(FIELDS[name][0]).itemsize for name in self.fields)
         chunk = self.chunk[2]
         speeds = max(1, _TILE_BYTES // (n * m * each) // chunk) * chunk
-        return tuple(map(min, (n, m, speeds), self.config.grid.shape))  # type: ignore[return-value]
+        return tuple(map(min, (n, m, speeds), self.config.grid.shape))  # type: ignore[return-value]  # three
 
     @cached_property
     def _counts(self) -> tuple[int, ...]:

@@ -119,7 +119,7 @@ def _serve(parent: Connection) -> None:
         answer: Finished | Exception
         try:
             answer = compute(tiles.get())
-        except Exception as error:
+        except Exception as error:  # whatever it is, the parent tells of it
             error.add_note(traceback.format_exc())
             answer = error
         try:
