@@ -232,7 +232,7 @@ def check_size(config: ScanConfig) -> None:
         raise InputError(
             f"the grid {size} needs {needed / 1e9:.4g} GB of disk, and {folder} has {there / 1e9:.4g} GB",
             key=key,
-            hint="take fewer values, or fewer fields",
+            hint="make room, choose another output, or take fewer values or fields",
         )
 
 
