@@ -13,6 +13,7 @@ from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition, condition_polynomials, conditions
 from bikestab.signs import violated_between
 from bikestab.speeds import critical, critical_speeds, stable_intervals
+from tests.onecell import table_of
 from tests.strategies import machines
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -118,15 +119,6 @@ def test_near_a_fold(delta, ends):
     at_the_fold = checked(cells(bicycle, low, [0.08]))
     assert at_the_fold.loose + at_the_fold.touching > 0
     assert checked(cells(bicycle, low - 1e-5, [0.08])).loose == 0
-
-
-def table_of(**rows):
-    """A table of one cell from its rows; its other conditions hold at every speed."""
-    table = np.zeros((5, 4, 1))
-    table[:, 0, 0] = 1, 4, 6, 4, 1  # (s + 1)⁴
-    for name, row in rows.items():
-        table[CONDITIONS.index(name), :, 0] = [*row, *[0] * (4 - len(row))]
-    return table
 
 
 def pair(width):

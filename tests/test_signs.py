@@ -10,6 +10,7 @@ from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.signs import ALL, NEAR, violated_between
 from bikestab.speeds import critical
+from tests.onecell import table_of
 from tests.strategies import lams, machines, sigmas
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -97,15 +98,6 @@ def test_speeds_on_roots(bicycle, shift):
     for some in (V, np.concatenate([[0.0], V])):
         runs, points, _ = both(table, some)
         np.testing.assert_array_equal(runs, points)
-
-
-def table_of(**rows):
-    """A table of one cell from its rows, whose conditions hold where they are not given."""
-    table = np.zeros((5, 4, 1))
-    table[:, 0, 0] = 1, 4, 6, 4, 1  # (s + 1)⁴
-    for name, row in rows.items():
-        table[CONDITIONS.index(name), :, 0] = [*row, *[0] * (4 - len(row))]
-    return table
 
 
 def test_several_roots_between_two_neighbouring_speeds():
