@@ -57,8 +57,8 @@ def draw_mesh(ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]]) -> lis
         xlim=box[0], ylim=box[1], zlim=box[2],
         xlabel=LABELS["lam"], ylabel=LABELS["sigma"], zlabel=LABELS["V"],
     )  # fmt: skip
-    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-        axis.set_major_locator(MaxNLocator(6))
+    for axis, prune in ((ax.xaxis, None), (ax.yaxis, "lower"), (ax.zaxis, None)):
+        axis.set_major_locator(MaxNLocator(6, prune=prune))  # the first labels of x and y would meet
     ax.view_init(elev=25, azim=-125)
     ax.set_box_aspect(_SCALE, zoom=0.95)
     return handles
