@@ -72,7 +72,13 @@ def draw_slice(
 def on_grid(volume: Volume, fixed: Axis, value: float) -> float:
     """The value of the nearest plane of the grid, which is what a picture of the probability shows."""
     axis = volume.axis(fixed)
-    return float(axis[np.argmin(np.abs(axis - value))])
+    near = float(axis[np.argmin(np.abs(axis - value))])
+    return value if _same(axis, near, value) else near
+
+
+def _same(axis: Floats, a: float, b: float) -> bool:
+    """Whether two values of an axis differ by no more than its values' rounding."""
+    return bool(abs(a - b) <= 1e-9 * (axis[-1] - axis[0]))
 
 
 def save(figure: Figure, path: Path) -> None:
@@ -108,7 +114,7 @@ def _stored(volume: Volume, field: str, fixed: Axis, at: int) -> Floats:
 def _growth_rate(volume: Volume, section: Section, x: Floats, y: Floats, near: int) -> Floats:
     """Growth rate at (y, x)."""
     axis = volume.axis(section.fixed)
-    if "growth_rate" in volume.fields and abs(axis[near] - section.value) <= 1e-9 * (axis[-1] - axis[0]):
+    if "growth_rate" in volume.fields and _same(axis, axis[near], section.value):
         return _stored(volume, "growth_rate", section.fixed, near)
     return growth_rate(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
 

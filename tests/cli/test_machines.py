@@ -108,6 +108,8 @@ def test_a_probability_between_two_planes_is_that_of_the_nearest(scan, bikestab)
     code, out, err = bikestab("slice", "out/a", "--lam", "0.21", "--probability")
     assert (code, out) == (0, "out/a/probability_lam_0.2.png\n")
     assert err == "note: the nearest plane of the grid is drawn, lam = 0.2\n"
+    code, out, err = bikestab("slice", "out/a", "--lam", "0.3", "--probability")
+    assert (code, out, err) == (0, "out/a/probability_lam_0.3.png\n", "")  # the grid has 0.30000000000000004
 
 
 def test_warnings_are_of_the_machines_that_are_computed(scan):
