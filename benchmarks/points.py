@@ -22,9 +22,9 @@ from bikestab.bicycle import Bicycle, preset_text
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.notation import MEIJAARD
 from bikestab.routh import conditions, violated
-from bikestab.signs import violated_between
+from bikestab.scan.signs import violated_between
+from bikestab.scan.tile import Tile, _field, compute
 from bikestab.speeds import critical
-from bikestab.tiles import Tile, _field, compute
 from bikestab.units import ANGLE, PURE, quantity
 
 SHAPE = (64, 128)  # λ and σ of a tile, as a large scan has them

@@ -1,43 +1,158 @@
-"""Random machines that could be built: two rigid parts, the wheels within them."""
+"""An ensemble's random numbers, which depend on nothing but seed, name and number → machines."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bikestab.bicycle import Bicycle
+from bikestab.bicycle import Bicycle, parameters
+from bikestab.errors import InputError
+from bikestab.limits import MOST_TRAIL, allowed, doubts, exceeds
+from bikestab.notation import CHECKS, PARTS, reduced
+
+_Floats = NDArray[np.float64]
 
 
-def random_machines(number: int, seed: int = 1981) -> Iterator[Bicycle]:
-    """Bicycles and motorcycles of Meijaard's 25 parameters, the same ones for the same seed.
+def uniforms(seed: int, name: str, number: int) -> _Floats:
+    """The first ``number`` random numbers between 0 and 1, both excluded, of the stream ``name``.
 
-    Each body is given by the spread of its mass along three axes, so its inertias obey every inequality
-    of a rigid body; each wheel lies between a disc and a thin rim, and its part is heavier than it.
+    Philox, a counter-based generator, keyed by a SHA-256 of seed and name: number i of a stream depends
+    neither on other streams nor on how many are drawn.
     """
-    rng = np.random.default_rng(seed)
-    for i in range(number):
-        yield Bicycle.from_mapping(_machine(rng), name=f"random {i + 1}")
+    key = int.from_bytes(hashlib.sha256(f"{seed} {name}".encode()).digest()[:16], "little")
+    raw = np.random.Philox(key=key).random_raw(number)
+    return ((raw >> np.uint64(12)).astype(float) + 0.5) * 2.0**-52
 
 
-def _machine(rng: np.random.Generator) -> dict[str, float]:
-    w, heavy = rng.uniform(0.8, 1.6), rng.uniform()  # wheelbase [m]; from bicycle (0) to motorcycle (1)
-    masses = {
-        "mB": rng.uniform(50, 100) + 170 * heavy,
-        "mH": rng.uniform(1, 5) + 15 * heavy,
-        "mR": rng.uniform(0.8, 3) + 12 * heavy,
-        "mF": rng.uniform(0.8, 3) + 10 * heavy,
-    }  # kg
-    n = {"w": w, "c": 0.05 * w, "lam": 0.2, **masses}  # its own design is not used
-    n |= {"xB": w * rng.uniform(0.25, 0.5), "zB": -rng.uniform(0.5, 1.1)}
-    n |= {"xH": w * rng.uniform(0.75, 1.05), "zH": -rng.uniform(0.4, 0.9)}
-    for wheel in "RF":
-        r, share = rng.uniform(0.2, 0.37), rng.uniform(0.5, 1)  # of m r²: disc … rim
-        spin = share * n["m" + wheel] * r**2
-        n |= {"r" + wheel: r, f"I{wheel}yy": spin, f"I{wheel}xx": 0.5 * spin * rng.uniform(1, 1.1)}
-    for body, size in (("B", (0.35, 0.2, 0.4)), ("H", (0.12, 0.15, 0.25))):
-        x, y, z = (s * rng.uniform(0.5, 1) for s in size)  # spread of the mass: radii of gyration [m]
-        m, tilt = n["m" + body], rng.uniform(-0.6, 0.6)  # correlation of x and z
-        n |= {f"I{body}xx": m * (y**2 + z**2), f"I{body}yy": m * (x**2 + z**2)}
-        n |= {f"I{body}zz": m * (x**2 + y**2), f"I{body}xz": m * x * z * tilt}
-    return n
+def standard_normal(uniform: _Floats) -> _Floats:
+    """Random numbers between 0 and 1 as those of the standard normal distribution, by its inverse."""
+    from statistics import NormalDist
+
+    return np.fromiter(map(NormalDist().inv_cdf, uniform.tolist()), float, len(uniform))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Machines:
+    """Many machines, as ``coefficients`` takes them: the paper's parameters, of shape (sample, 1).
+
+    Parameters that all of them share are plain numbers.
+    """
+
+    shape: tuple[int, ...]
+    c: Any
+    m1: Any
+    l1: Any
+    h1: Any
+    A1: Any
+    B1: Any
+    D1: Any
+    C1: Any
+    R1: Any
+    m2: Any
+    l2: Any
+    h2: Any
+    A2: Any
+    B2: Any
+    D2: Any
+    C2: Any
+    R2: Any
+    g: Any
+    delta: Any
+
+    @property
+    def number(self) -> int:
+        """How many machines there are."""
+        return self.shape[0]
+
+    @classmethod
+    def drawn(cls, bicycle: Bicycle, samples: Mapping[str, _Floats]) -> Machines:
+        """Copies of a bicycle with ``samples`` (sample,) of parameters in its notation.
+
+        Raises InputError where some are no machine; it names the parameter, how many they are, and the first.
+        """
+        columns: dict[str, Any] = {name: values[:, np.newaxis] for name, values in samples.items()}
+        shape = next(iter(columns.values())).shape
+        if "R" in columns:
+            columns["R1"] = columns["R2"] = columns.pop("R")
+        numbers: dict[str, Any] = {**bicycle.given, **columns}
+        good = np.ones(shape, dtype=bool)
+        with np.errstate(all="ignore"):  # what no machine has may overflow
+            if bicycle.bodies is not None:
+                good &= _bodies_exist(numbers)
+                numbers = {"delta": 0.0, **reduced(numbers)}
+            good &= _machine_exists(numbers)
+        if not good.all():
+            raise _refusal(bicycle, samples, np.flatnonzero(~good))
+        return cls(shape=shape, **{p.name: numbers[p.name] for p in _PARAMETERS})
+
+    def doubtful(self) -> dict[str, int]:
+        """How many machines have what no rigid bodies on the ground can have, by what it is."""
+        found = {}
+        for i, part in (("1", "rear"), ("2", "front")):
+            flags = doubts(*(getattr(self, f"{letter}{i}") for letter in "ABCmRh"))
+            words = (
+                f"no rigid {part} part has A{i} + B{i} < C{i}",
+                f"no wheel within the {part} part has C{i} > m{i} R{i}²",
+                f"the {part} centre of mass is below the ground",
+            )
+            for text, flag in zip(words, flags, strict=True):
+                found[text] = int(np.count_nonzero(np.broadcast_to(flag, self.shape)))
+        return {text: number for text, number in found.items() if number}
+
+    def part(self, samples: slice) -> Machines:
+        """Some of the machines."""
+        numbers = {p.name: getattr(self, p.name) for p in _PARAMETERS}
+        numbers = {name: value[samples] if np.ndim(value) else value for name, value in numbers.items()}
+        return Machines(shape=(len(range(*samples.indices(self.number))), 1), **numbers)
+
+
+_PARAMETERS = [p for p in parameters() if p.name not in ("lam", "sigma")]
+
+
+def _machine_exists(n: Mapping[str, Any]) -> Any:
+    """Where Bicycle would take the paper's parameters."""
+    good = True
+    for p in _PARAMETERS:
+        good = good & allowed(n[p.name], p.metadata["check"])
+    for i in "12":
+        A, B, C, D, R = (n[letter + i] for letter in "ABCDR")
+        good = good & np.logical_not(exceeds(abs(D), np.sqrt(A * B))) & ((R > 0) | (C == 0))
+    return good
+
+
+def _bodies_exist(n: Mapping[str, Any]) -> Any:
+    """Where ``two_parts`` would take the 25 parameters."""
+    good = True
+    for key, check in CHECKS.items():
+        good = good & allowed(n.get(key, 1.0), check)
+    for body in "BH":
+        xx, zz, xz = (n[f"I{body}{axes}"] for axes in ("xx", "zz", "xz"))
+        good = good & np.logical_not(exceeds(abs(xz), np.sqrt(xx * zz)))
+    for _, bodies in PARTS:
+        good = good & (sum(n[m] for m in bodies) > 0)
+    return good & (abs(n["c"] / n["w"]) <= MOST_TRAIL)
+
+
+def _refusal(bicycle: Bicycle, samples: Mapping[str, _Floats], refused: NDArray[np.intp]) -> InputError:
+    """Why the first of the ``refused`` samples is none."""
+    number = len(next(iter(samples.values())))
+    values = {name: float(column[refused[0]]) for name, column in samples.items()}
+    first = ", ".join(f"{name} = {value:.6g}" for name, value in values.items())
+    are = "is no machine" if len(refused) == 1 else "are no machines"
+    try:
+        bicycle.replaced(values)
+    except InputError as error:
+        name = str(error.key[0]) if error.key else ""
+        name = "R" if name in ("R1", "R2") and "R" in values else name
+        problem = error.problem if name in values else f"{name}: {error.problem}"
+        return InputError(
+            f"{len(refused)} of {number} samples {are}; the first has {first}: {problem}",
+            key=(name,) if name in values else (),
+            hint=f"{error.hint}; take a narrower distribution, or uniform: [low, high]",
+        )
+    raise AssertionError("the limits of many machines are not those of one")

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from bikestab.bicycle import Bicycle
 
 if TYPE_CHECKING:
-    from bikestab.samples import Machines
+    from bikestab.machines import Machines
 
 Floats: TypeAlias = NDArray[np.float64]
 Model = Literal["refined", "unrefined"]

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
-from bikestab.config import Axis
+from bikestab.config.scanconfig import Axis
 from bikestab.errors import InputError, nearest
 from bikestab.model import Floats, Model
-from bikestab.plan import FIELDS
+from bikestab.scan.plan import FIELDS
 
 
 class Volume:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from bikestab.configfile import load_config
+from bikestab.config.file import load_config
 from bikestab.errors import InputError
 
 GOOD = """\

@@ -2,8 +2,10 @@
 
 import pytest
 
-from bikestab import plan, tiles, workers
-from bikestab.scan import run_scan
+from bikestab.scan import plan
+from bikestab.scan import processes as workers
+from bikestab.scan import tile as tiles
+from bikestab.scan.run import run_scan
 from tests import volumes
 
 

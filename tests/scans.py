@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from bikestab import yamltext
-from bikestab.configfile import parse_config
+from bikestab.config.file import parse_config
 
 
 def load(text):

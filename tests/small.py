@@ -2,9 +2,9 @@
 
 from functools import cache
 
-from bikestab import readings, reproduce
 from bikestab.bicycle import Bicycle
-from bikestab.paper import Size
+from bikestab.paper1981 import readings, reproduce
+from bikestab.paper1981.box import Size
 
 TINY = Size(
     grid=60, lines=24, grid_damping=12, grid_readings=15, machines=8, grid_machines=7, search=15, picture=61,

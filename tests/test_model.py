@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from mpmath import mp
 
 from bikestab.bicycle import Bicycle
+from bikestab.machines import Machines
 from bikestab.model import MODELS, NOISE, canonical_matrices, characteristic_table, coefficients
-from bikestab.samples import Machines
 from bikestab.speeds import KINDS, stable_intervals
 from tests.references import generate_speeds as reference
 from tests.strategies import lams, machines, meijaard_machines, paper_machines, sigmas

@@ -9,10 +9,10 @@ import pytest
 
 from bikestab import __version__
 from bikestab.bicycle import Bicycle
-from bikestab.config import AXES
+from bikestab.config.scanconfig import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scan import run_scan
+from bikestab.scan.run import run_scan
 from bikestab.spectrum import growth_rate
 from bikestab.speeds import KINDS, stable_intervals
 from bikestab.volume import Volume

@@ -8,11 +8,11 @@ import h5py
 import numpy as np
 import pytest
 
-from bikestab.config import AXES
+from bikestab.config.scanconfig import AXES
 from bikestab.errors import InputError
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS
-from bikestab.scan import run_scan
+from bikestab.scan.run import run_scan
 from bikestab.spectrum import growth_rate
 from bikestab.volume import Volume, uniform
 from tests.volumes import EQUAL, config_of

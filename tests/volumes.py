@@ -1,7 +1,7 @@
 """Two small volumes that tests read: one with all fields, one with axes of one's own values."""
 
 from bikestab import yamltext
-from bikestab.configfile import parse_config
+from bikestab.config.file import parse_config
 
 EQUAL = """\
 title: a small scan

@@ -12,7 +12,7 @@ from bikestab_cli.options import table
 from bikestab.errors import InputError
 
 if TYPE_CHECKING:
-    from bikestab.config import Expectation, ScanConfig
+    from bikestab.config.scanconfig import Expectation, ScanConfig
 
 
 @click.command("check")
@@ -28,7 +28,7 @@ def command(configs: tuple[str, ...]) -> None:
     Example:
       bikestab check configs/dikarev1981.yaml configs/meijaard2007.yaml
     """
-    from bikestab.configfile import load_config
+    from bikestab.config.file import load_config
 
     rows, failed = [], 0
     for name in configs:

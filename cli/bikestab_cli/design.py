@@ -23,8 +23,8 @@ from bikestab_cli.options import (
 from bikestab.units import ANGLE, PURE, SPEED
 
 if TYPE_CHECKING:
-    from bikestab.criteria import Wanted
-    from bikestab.design import Best, Design
+    from bikestab.design.best import Best, Design
+    from bikestab.design.criteria import Wanted
 
 Ends = tuple[float, float]
 SPEEDS = QuantityEnds("speed", SPEED)
@@ -104,8 +104,8 @@ def command(
       bikestab design --sigma 0.08 --V 4:6 --json
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
-    from bikestab.criteria import Wanted
-    from bikestab.design import best_designs
+    from bikestab.design.best import best_designs
+    from bikestab.design.criteria import Wanted
     from bikestab.errors import InputError
 
     bicycle = load_bicycle(bicycle_name, delta)
@@ -129,9 +129,9 @@ def command(
     if csv_file:
         files["front"] = written(csv_file, lambda path: _write_csv(best.pareto, path))
     if output:
-        from bikestab.curves import trace
-        from bikestab.plot import save
-        from bikestab.plot_design import draw_designs
+        from bikestab.plot.designs import draw_designs
+        from bikestab.plot.slices import save
+        from bikestab.region.curves import trace
 
         figure = draw_designs(wanted, best, trace(bicycle, lam, sigma, model=model))
         files["picture"] = written(output, lambda path: save(figure, path))
@@ -241,7 +241,7 @@ def _notes(wanted: Wanted, designs: list[Design], best: Best) -> list[str]:
 
 
 def _write_csv(front: list[Design], path: Path) -> None:
-    from bikestab.design import Design
+    from bikestab.design.best import Design
 
     keys = list(Design.__annotations__)
     lines = [",".join(keys)]

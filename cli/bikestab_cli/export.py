@@ -74,9 +74,9 @@ def command(
       bikestab export out/quick --intervals intervals.parquet
     """
     from bikestab.errors import InputError
-    from bikestab.fileformat import file_format
-    from bikestab.meshfile import MESHES
-    from bikestab.tables import TABLES
+    from bikestab.export.formats import file_format
+    from bikestab.export.meshes import MESHES
+    from bikestab.export.tables import TABLES
     from bikestab.volume import Volume
 
     if not (meshes or intervals or skeleton):
@@ -121,7 +121,7 @@ def _box(volume: Volume) -> list[Ends]:
 
 
 def _write_intervals(volume: Volume, names: tuple[str, ...], about: dict[str, str]) -> None:
-    from bikestab.tables import INTERVALS, interval_blocks, save_table
+    from bikestab.export.tables import INTERVALS, interval_blocks, save_table
 
     stable = volume.read("upper") > 0
     intervals, designs = int(stable.sum()), stable[..., 0].size
@@ -135,8 +135,8 @@ def _write_intervals(volume: Volume, names: tuple[str, ...], about: dict[str, st
 
 
 def _write_skeleton(volume: Volume, names: tuple[str, ...], about: dict[str, str]) -> None:
-    from bikestab.curves import trace
-    from bikestab.tables import SKELETON, save_table, skeleton_blocks
+    from bikestab.export.tables import SKELETON, save_table, skeleton_blocks
+    from bikestab.region.curves import trace
 
     bicycle = volume.bicycle
     lam, sigma, _ = _box(volume)  # at all speeds: two of the curves are at infinite ones
@@ -154,8 +154,8 @@ def _write_mesh(
     scale: tuple[float, float, float] | None,
     about: dict[str, str],
 ) -> None:
-    from bikestab.mesh import region_mesh
-    from bikestab.meshfile import readable_scale, save_mesh, scale_text
+    from bikestab.export.meshes import readable_scale, save_mesh, scale_text
+    from bikestab.region.mesh import region_mesh
     from bikestab.speeds import CAPSIZE, WEAVE
 
     box = _box(volume)

@@ -33,9 +33,9 @@ def command(output: str, quick: bool) -> None:
     Example:
       bikestab reproduce --quick -o out/quick-report
     """
-    from bikestab.paper import FULL, QUICK
-    from bikestab.report import key_number
-    from bikestab.reproduce import reproduce
+    from bikestab.paper1981.box import FULL, QUICK
+    from bikestab.paper1981.report import key_number
+    from bikestab.paper1981.reproduce import reproduce
 
     def progress(words: str) -> None:
         if sys.stderr.isatty():

@@ -13,8 +13,8 @@ from bikestab_cli.options import json_option, print_json
 from bikestab_cli.progress import progress
 
 if TYPE_CHECKING:
-    from bikestab.config import ScanConfig
-    from bikestab.scan import ScanResult
+    from bikestab.config.scanconfig import ScanConfig
+    from bikestab.scan.run import ScanResult
     from bikestab.volume import Volume
 
 MOST_DRAWN = 8  # machines of a sweep
@@ -60,9 +60,9 @@ def command(
       bikestab scan configs/quick.yaml configs/meijaard2007.yaml --force --json
       bikestab scan configs/quick.yaml --jobs 2 --quiet
     """
-    from bikestab.configfile import load_config
+    from bikestab.config.file import load_config
     from bikestab.errors import InputError
-    from bikestab.scan import check_size, volume_path
+    from bikestab.scan.run import check_size, volume_path
 
     if jobs and scheduler:
         raise click.UsageError("--jobs is for this machine, --scheduler for a cluster; give one of them")
@@ -99,7 +99,7 @@ def _run(
     name: str, config: ScanConfig, force: bool, jobs: int | None, scheduler: str, quiet: bool
 ) -> ScanResult:
     from bikestab.errors import InputError
-    from bikestab.scan import run_scan, tiles_path
+    from bikestab.scan.run import run_scan, tiles_path
 
     try:
         with progress(name, quiet) as show:
@@ -131,8 +131,8 @@ def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:
 
 
 def _draw_machine(config: ScanConfig, volume: Volume, values: dict[str, float]) -> list[Path]:
-    from bikestab.plot import draw_slice, on_grid, save, slice_name
-    from bikestab.plot_region import draw_region
+    from bikestab.plot.region import draw_region
+    from bikestab.plot.slices import draw_slice, on_grid, save, slice_name
 
     pictures = []
     folder = volume.path.parent

@@ -19,6 +19,6 @@ def command() -> None:
     Example:
       bikestab schema > bikestab.schema.json
     """
-    from bikestab.configfile import config_schema
+    from bikestab.config.file import config_schema
 
     print_json(config_schema())

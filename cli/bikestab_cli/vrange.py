@@ -127,7 +127,7 @@ def _results(
 
 
 def _nearest(bicycle: Bicycle, lam: float, sigma: float, model: Any) -> Any:
-    from bikestab.nearest import nearest_stable
+    from bikestab.region.nearest import nearest_stable
 
     return nearest_stable(bicycle, lam, sigma, model=model)
 

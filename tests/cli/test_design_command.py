@@ -7,11 +7,11 @@ from functools import partial
 import jsonschema
 import pytest
 
-from bikestab import design as module
-from bikestab import search
 from bikestab.bicycle import Bicycle, preset_text
-from bikestab.criteria import Wanted
-from bikestab.design import best_designs
+from bikestab.design import best as module
+from bikestab.design import search
+from bikestab.design.best import best_designs
+from bikestab.design.criteria import Wanted
 
 NUMBER, MAYBE = {"type": "number"}, {"type": ["number", "null"]}
 KIND = {"enum": ["weave", "capsize", "rest", "unbounded", None]}

@@ -13,7 +13,7 @@ from matplotlib.colors import to_rgb
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import BikestabError
-from bikestab.plot_modes import STYLES, draw_modes
+from bikestab.plot.modes import STYLES, draw_modes
 
 BENCHMARK = ("--bicycle", "meijaard2007")
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from bikestab import yamltext
-from bikestab.configfile import parse_config
-from bikestab.scan import run_scan
+from bikestab.config.file import parse_config
+from bikestab.scan.run import run_scan
 
 pyvista = pytest.importorskip("pyvista")
 parquet = pytest.importorskip("pyarrow.parquet")

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from bikestab import yamltext
-from bikestab.configfile import parse_config
-from bikestab.scan import run_scan
+from bikestab.config.file import parse_config
+from bikestab.scan.run import run_scan
 
 BIKESTAB = shutil.which("bikestab", path=str(Path(sys.executable).parent)) or shutil.which("bikestab")
 GRID = """\

@@ -6,7 +6,8 @@ import pytest
 from bikestab_cli.main import main
 from matplotlib.figure import Figure
 
-from bikestab import paper, reproduce
+from bikestab.paper1981 import box as paper
+from bikestab.paper1981 import reproduce
 from tests.small import study
 
 

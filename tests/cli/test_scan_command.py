@@ -8,7 +8,8 @@ import h5py
 import pytest
 from bikestab_cli import progress
 
-from bikestab import plan, workers
+from bikestab.scan import plan
+from bikestab.scan import processes as workers
 
 CONFIG = """\
 bicycle: dikarev1981
@@ -188,7 +189,7 @@ def test_a_picture_that_cannot_be_drawn_costs_nothing_else(scan, monkeypatch):
     def broken(volume):
         raise ValueError("no such luck")
 
-    monkeypatch.setattr("bikestab.plot_region.draw_region", broken)
+    monkeypatch.setattr("bikestab.plot.region.draw_region", broken)
     Path("a.yaml").write_text(SLICED)
     warned = []
     monkeypatch.setattr("click.echo", lambda text, err=False: warned.append(text))

@@ -11,7 +11,7 @@ import pytest
 from bikestab_cli.main import main
 
 from bikestab.bicycle import Bicycle, preset_text
-from bikestab.nearest import nearest_stable
+from bikestab.region.nearest import nearest_stable
 
 
 @pytest.fixture

@@ -1,0 +1,178 @@
+"""A scan's YAML file → ScanConfig; every mistake is one message with file, line, key and what is allowed."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from bikestab import yamltext
+from bikestab.bicycle import Bicycle
+from bikestab.config.scanconfig import AXES, Expectation, Plane, ScanConfig
+from bikestab.config.variation import Distribution, Ensemble
+from bikestab.errors import InputError, dotted, nearest
+from bikestab.units import shown
+
+
+def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
+    """Read a scan's YAML file, with ``key.path=value`` overrides (values in YAML) put over it.
+
+    Raises InputError naming file, line, key, value and what is allowed.
+    """
+    document = yamltext.read(path)
+    return parse_config(document, overrides)
+
+
+def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> ScanConfig:
+    """The configuration in a parsed YAML document; see ``load_config``."""
+    places = {}
+    for override in overrides:
+        key = _override(document.data, override)
+        places[key] = f"--set {override}"
+    text = document.text
+    if overrides:
+        from ruamel.yaml import YAML
+
+        stream = io.StringIO()
+        YAML().dump(document.data, stream)
+        text = stream.getvalue()
+    try:
+        data = _plain(document.data)
+        data.setdefault("output", f"out/{Path(document.file).stem}")
+        if "bicycle" in data:
+            data["bicycle"] = _load_bicycle(data["bicycle"], Path(document.file).parent)
+        try:
+            return ScanConfig.model_validate(data).with_text(text)
+        except ValidationError as error:
+            raise _translated(error) from None
+    except InputError as error:
+        for key, place in places.items():
+            if not error.place and error.key[: len(key)] == key:
+                raise InputError(error.problem, key=error.key, hint=error.hint, place=place) from None
+        raise document.located(error) from None
+
+
+def config_schema() -> dict[str, Any]:
+    """The JSON Schema of a scan's YAML file."""
+    schema = ScanConfig.model_json_schema()
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    schema["required"].remove("output")
+    return schema
+
+
+def _load_bicycle(value: object, folder: Path) -> object:
+    try:
+        if isinstance(value, str):
+            beside = folder / value
+            return Bicycle.load(str(beside) if beside.is_file() else value)
+        if isinstance(value, dict):
+            return Bicycle.from_mapping(value)
+    except InputError as error:
+        if error.place:
+            raise
+        raise InputError(error.problem, key=("bicycle", *error.key), hint=error.hint) from None
+    return value
+
+
+def _translated(error: ValidationError) -> InputError:
+    """The one mistake to tell of first: a misspelt key explains the missing one."""
+    errors = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
+    first = errors[0]
+    key, context, kind = first["loc"], first.get("ctx", {}), first["type"]
+    tag = key[2] if key[:1] in (("grid",), ("sweep",)) and len(key) > 2 else ""
+    if tag:
+        key = key[:2] + key[3:]  # without the tag of the axis' union
+    if kind == "bikestab":
+        return InputError(context["problem"], key=context["key"] or key, hint=context["hint"])
+    if kind == "extra_forbidden":
+        known = ["values"] if tag == "values" else _known(key[:-1])
+        return InputError("unknown key", key=key, hint=nearest(str(key[-1]), known))
+    if kind == "missing":
+        return InputError("missing", key=key, hint=f"needed here: {', '.join(_known(key[:-1]))}")
+    if kind == "literal_error":
+        words = context["expected"].replace(" or ", ", ").replace("'", "").split(", ")
+        return InputError(f"{shown(first['input'])} is not known", key=key, hint=_near(first["input"], words))
+    what = {
+        "int_type": "a whole number",
+        "int_from_float": "a whole number",
+        "string_type": "text",
+        "list_type": "a list",
+        "model_type": "keys with values",
+        "model_attributes_type": "keys with values",
+        "dict_type": "keys with values",
+        "greater_than_equal": f"at least {context.get('ge')}",
+        "less_than_equal": f"at most {context.get('le')}",
+        "too_short": f"a list of at least {context.get('min_length')}",
+        "string_too_short": "text that is not empty",
+    }.get(kind, first["msg"])
+    hint = f"keys here: {', '.join(_known(key))}" if what == "keys with values" else f"allowed: {what}"
+    if kind == "list_type" and tag == "list":
+        hint += " of values, or {start: ..., stop: ..., num: ...}"
+    return InputError(f"{shown(first['input'])} is not {what}", key=key, hint=hint)
+
+
+def _near(value: object, words: Sequence[str]) -> str:
+    return nearest(value, words) if isinstance(value, str) else f"known: {', '.join(words)}"
+
+
+def _known(key: tuple[str | int, ...]) -> list[str]:
+    """The keys that may stand at a place of the document."""
+    if not key:
+        return list(ScanConfig.model_fields)
+    if key[0] == "grid":
+        return list(AXES) if len(key) == 1 else ["start", "stop", "num", "values"]
+    if key[0] == "sweep":
+        return ["parameters of the bicycle"] if len(key) == 1 else ["start", "stop", "num", "values"]
+    if key == ("ensemble",):
+        return ["parameters of the bicycle", *Ensemble.model_fields]
+    if key[0] == "ensemble":
+        return list(Distribution.model_fields)
+    model = Plane if key[0] == "slices" else Expectation
+    return list(model.model_fields)
+
+
+def _override(data: Any, override: str) -> tuple[str | int, ...]:
+    """Put ``key.path=value`` into the YAML tree; returns the path, or its part down to the first new key."""
+    name, equals, text = override.partition("=")
+    path = [part.strip() for part in name.split(".")]
+    if not equals or not all(path):
+        raise InputError(
+            f"{override!r} is not key=value", place="--set", hint="for example --set grid.lam.num=31"
+        )
+    value = yamltext.parse(f"value: {text}", f"--set {override}").data["value"]
+    key: list[str | int] = []
+    node, made = data, False
+    for i, part in enumerate(path):
+        step: str | int = part
+        if isinstance(node, list):
+            with suppress(ValueError):
+                step = int(part)
+            if not isinstance(step, int) or not -len(node) <= step < len(node):
+                raise InputError(f"{dotted(key)} has no item {part}", place=f"--set {override}")
+        elif not isinstance(node, dict):
+            raise InputError(f"{dotted(key)} has no keys", place=f"--set {override}")
+        if not made:
+            key.append(step)
+        made = made or (isinstance(node, dict) and step not in node)
+        if i == len(path) - 1:
+            node[step] = value
+        else:
+            if isinstance(node, dict) and step not in node:
+                node[step] = type(node)()
+            node = node[step]
+    return tuple(key)
+
+
+def _plain(node: Any, key: tuple[str | int, ...] = ()) -> Any:
+    """The YAML tree as plain dicts and lists, with text keys."""
+    if isinstance(node, dict):
+        return {str(k): _plain(value, (*key, str(k))) for k, value in node.items()}
+    if isinstance(node, list):
+        return [_plain(value, (*key, i)) for i, value in enumerate(node)]
+    if isinstance(node, str) and ("\0" in node or node != node.encode(errors="ignore").decode()):
+        raise InputError(f"{shown(node)} has characters that no file can hold", key=key)
+    return node

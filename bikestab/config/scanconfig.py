@@ -1,0 +1,212 @@
+"""What a scan's config is: its keys, the values they may have, and what follows from them."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cached_property
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
+
+from bikestab.bicycle import PAPER, Bicycle, preset_names
+from bikestab.config.values import (
+    ABSENT,
+    Damping,
+    NumberAxis,
+    Speed,
+    SpeedAxis,
+    Strict,
+    Tilt,
+    TiltAxis,
+    Trail,
+    TrailAxis,
+    UpperSpeed,
+    Within,
+    mistake,
+)
+from bikestab.config.variation import (
+    SWEPT,
+    Ensemble,
+    Member,
+    SweptAxis,
+    check_names,
+    check_samples,
+    doubts_of,
+    members,
+    swept_axes,
+)
+from bikestab.errors import InputError
+from bikestab.model import Floats, Model
+from bikestab.notation import MEIJAARD
+from bikestab.units import shown
+
+Axis = Literal["lam", "sigma", "V"]
+AXES: tuple[Axis, Axis, Axis] = ("lam", "sigma", "V")
+FieldName = Literal["stable", "violated", "growth_rate", "conditions"]
+
+
+class Grid(Strict):
+    """The values of λ, σ and V whose every combination is evaluated."""
+
+    lam: Annotated[TiltAxis, Field(description="tilt of the steering axis from the vertical [rad]")]
+    sigma: Annotated[TrailAxis, Field(description="trail divided by the wheelbase [1]")]
+    V: Annotated[SpeedAxis, Field(description="forward speed [m/s]")]
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Number of values of λ, σ and V."""
+        return self.lam.size, self.sigma.size, self.V.size
+
+    def values(self, name: Axis) -> Floats:
+        """The values of one axis."""
+        return getattr(self, name).points
+
+    def ends(self, name: Axis) -> tuple[float, float]:
+        """First and last value of one axis."""
+        axis = getattr(self, name)
+        return (axis.start, axis.stop) if hasattr(axis, "num") else (axis.values[0], axis.values[-1])
+
+
+class Plane(Strict):
+    """A picture across one axis, at one of its values."""
+
+    lam: Tilt = ABSENT
+    sigma: Trail = ABSENT
+    V: Speed = ABSENT
+
+    @model_validator(mode="after")
+    def _one(self) -> Plane:
+        if len(self.model_fields_set) != 1:
+            raise mistake("a slice fixes one axis", "allowed: one of {lam: ...}, {sigma: ...}, {V: ...}")
+        return self
+
+    @property
+    def fixed(self) -> tuple[Axis, float]:
+        """The axis and its value."""
+        (name,) = self.model_fields_set
+        return name, getattr(self, name)  # type: ignore[return-value]  # the fields are the axes
+
+
+class Expectation(Strict):
+    """What ``bikestab check`` compares: an interval of stable speeds, or none."""
+
+    lam: Tilt | None = None
+    sigma: Trail | None = None
+    V1: Speed | None = None
+    V2: UpperSpeed | None = None  # inf for "unbounded"
+    within: Within = 0.001
+    stable: Literal["never"] | None = None
+
+    @model_validator(mode="after")
+    def _something(self) -> Expectation:
+        if (self.stable is None) == (self.V1 is None and self.V2 is None):
+            raise mistake("expects nothing, or two things", "allowed: V1 and/or V2, or 'stable: never'")
+        return self
+
+
+def _bicycle(value: object) -> Bicycle:
+    if isinstance(value, Bicycle):
+        return value
+    raise mistake(f"{shown(value)} is no bicycle", "allowed: a preset, a path to a YAML file, or parameters")
+
+
+_PARAMETERS = {
+    "type": "object",
+    "properties": {
+        key: {"description": text, "type": ["number", "string"] if key == "lam" else "number"}
+        for key, text in {**PAPER, **MEIJAARD}.items()
+    }
+    | {"name": {"type": "string"}, "source": {"type": "string"}},
+    "additionalProperties": False,
+}
+
+
+class ScanConfig(Strict):
+    """What ``bikestab scan`` computes and where it puts the result."""
+
+    title: Annotated[
+        str, Field(strict=True, description="printed on the pictures and stored in the volume")
+    ] = ""
+    bicycle: Annotated[
+        Bicycle,
+        BeforeValidator(_bicycle),
+        WithJsonSchema({"anyOf": [{"type": "string", "examples": preset_names()}, _PARAMETERS]}),
+        Field(description="a preset, a path to a file from this file's folder, or the parameters in place"),
+    ]
+    model: Annotated[Model, Field(description="refined, or unrefined as before the 1981 paper")] = "refined"
+    delta: Annotated[
+        Damping | None, Field(description="steering damping instead of the bicycle's own [kg m²/s]")
+    ] = None
+    grid: Grid
+    fields: Annotated[list[FieldName], Field(min_length=1, description="what the volume holds")] = [
+        "stable",
+        "violated",
+        "growth_rate",
+    ]
+    sweep: Annotated[
+        dict[str, NumberAxis],
+        Field(
+            description="axes over parameters of the bicycle, in its notation",
+            json_schema_extra={"propertyNames": {"enum": SWEPT}},
+        ),
+    ] = {}
+    ensemble: Annotated[
+        Ensemble | None, Field(description="parameters drawn at random, for probabilities of stability")
+    ] = None
+    slices: Annotated[list[Plane], Field(description="pictures across one axis")] = []
+    output: Annotated[str, Field(strict=True, min_length=1, description="folder, from the current directory")]
+    expect: Annotated[list[Expectation], Field(description="what 'bikestab check' compares")] = []
+    _text: str = PrivateAttr("")
+
+    @model_validator(mode="after")
+    def _consistent(self) -> ScanConfig:
+        for i, plane in enumerate(self.slices):
+            name, value = plane.fixed
+            first, last = self.grid.ends(name)
+            if not first <= value <= last:
+                hint = f"allowed: {first:g} ... {last:g}"
+                raise mistake(f"{value:g} is outside the grid", hint, ("slices", i, name))
+        try:
+            check_names(self.bicycle, self.sweep, self.ensemble, own_delta=self.delta is not None)
+            check_samples(self.members, self.ensemble)
+        except InputError as error:
+            raise mistake(error.problem, error.hint, error.key) from None
+        return self
+
+    @property
+    def machine(self) -> Bicycle:
+        """The bicycle with the damping that is used."""
+        return self.bicycle.with_delta(self.delta)
+
+    @property
+    def axes(self) -> list[SweptAxis]:
+        """The axes of the sweep, as in the config."""
+        return swept_axes(self.bicycle, self.sweep)
+
+    @cached_property
+    def members(self) -> list[Member]:
+        """The machines of the sweep, the last axis fastest; without one, ``machine`` alone."""
+        return members(self.machine, self.sweep)
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """What no rigid bodies on the ground can have, of the machines that are computed."""
+        if not self.sweep and not self.ensemble:
+            return list(self.machine.warnings)
+        return doubts_of(self.members, self.ensemble)
+
+    @property
+    def text(self) -> str:
+        """The YAML text, with overrides in it."""
+        return self._text
+
+    def with_text(self, text: str) -> ScanConfig:
+        """A copy that was read from this YAML text."""
+        config = self.model_copy()
+        config._text = text
+        return config
+
+    @property
+    def sha256(self) -> str:
+        """The SHA-256 of the YAML text."""
+        return hashlib.sha256(self.text.encode()).hexdigest()

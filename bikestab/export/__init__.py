@@ -1,0 +1,1 @@
+"""Meshes and tables for other programs."""

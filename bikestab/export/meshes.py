@@ -1,0 +1,126 @@
+"""The boundary's triangle mesh as a file for VTK and ParaView, or for programs that read PLY and STL.
+
+docs/format.md describes what is in the files. PLY and STL are written here and not by VTK, whose PLY
+has single precision and no attributes of one's own, and whose writers tell of a full disk only on stderr.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bikestab.export.formats import file_format
+from bikestab.model import Floats
+from bikestab.region.mesh import Mesh
+from bikestab.speeds import CAPSIZE, KINDS, WEAVE
+
+MESHES = {".vtp": "pyvista", ".vtu": "pyvista", ".ply": "", ".stl": ""}  # ending → package it needs
+COLOURS = {WEAVE: (0, 114, 178), CAPSIZE: (230, 159, 0)}  # blue and orange of Okabe and Ito
+_LENGTH = 10.0  # of each side of the box in the file, as far as round factors allow
+
+_COLOUR = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+_HEADER = (
+    "ply\nformat binary_little_endian 1.0\n{comments}element vertex {vertices}\n"
+    "property double x\nproperty double y\nproperty double z\nproperty double growth_rate\n" + _COLOUR
+    + "element face {faces}\nproperty list uchar int vertex_indices\nproperty uchar kind\n"
+    "property uchar upper\n" + _COLOUR + "end_header\n"
+)  # fmt: skip
+
+
+def readable_scale(low: ArrayLike, high: ArrayLike) -> Floats:
+    """Round factors (1, 2 or 5 times a power of ten) that make the sides of a box about equally long.
+
+    ``low`` and ``high`` are the ends of the axes, shape (axis,).
+    """
+    factor = _LENGTH / (np.asarray(high, dtype=float) - np.asarray(low, dtype=float))
+    round_numbers = np.array([1.0, 2.0, 5.0, 10.0]) * 10.0 ** np.floor(np.log10(factor))[:, np.newaxis]
+    nearest = np.argmin(np.abs(np.log(round_numbers / factor[:, np.newaxis])), axis=1)
+    return np.array([float(f"{numbers[i]:.0e}") for numbers, i in zip(round_numbers, nearest, strict=True)])
+
+
+def scale_text(scale: ArrayLike) -> str:
+    """How coordinates in a file follow from λ, σ and V, in words."""
+    pairs = zip("xyz", np.asarray(scale, dtype=float), ("lam", "sigma", "V"), strict=True)
+    return ", ".join(f"{axis} = {factor:.15g} {name}" for axis, factor, name in pairs)
+
+
+def save_mesh(mesh: Mesh, path: Path, scale: Sequence[float] | Floats, about: Mapping[str, str]) -> None:
+    """Write a mesh in the format of the file's ending, its points (λ, σ, V) times ``scale`` (3,).
+
+    ``about`` is told in the file as far as the format has room. Raises InputError for an unknown ending or a
+    missing package, OSError where the file cannot be written.
+    """
+    ending = file_format(path, MESHES)
+    points = mesh.points * np.asarray(scale, dtype=float)
+    about = {"axes": f"{scale_text(scale)} (lam in rad, V in m/s)", **about}
+    # one line of ASCII, as PLY needs and VTK's Python side
+    about = {k: " ".join(text.encode("ascii", "replace").decode().split()) for k, text in about.items()}
+    if ending == ".stl":
+        content = _stl(mesh, points, about)
+    elif ending == ".ply":
+        content = _ply(mesh, points, about)
+    else:
+        content = _vtk(mesh, points, np.asarray(scale, dtype=float), about, ending)
+    path.write_bytes(content)
+
+
+def _vtk(mesh: Mesh, points: Floats, scale: Floats, about: Mapping[str, str], ending: str) -> bytes:
+    import pyvista
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
+
+    surface = pyvista.PolyData.from_regular_faces(points, mesh.triangles)
+    values = (*mesh.points.T, mesh.decay)
+    for name, value in zip(("lam", "sigma", "V", "growth_rate"), values, strict=True):
+        surface.point_data[name] = np.ascontiguousarray(value)
+    surface.cell_data["kind"] = mesh.kind
+    surface.cell_data["upper"] = mesh.upper.astype(np.uint8)
+    surface.field_data["scale"] = scale
+    for name, text in about.items():
+        surface.field_data[name] = [text]
+    writer: Any
+    if ending == ".vtp":
+        writer, data = vtkXMLPolyDataWriter(), surface
+    else:
+        writer, data = vtkXMLUnstructuredGridWriter(), surface.cast_to_unstructured_grid()
+    writer.SetInputData(data)
+    writer.WriteToOutputStringOn()  # so that Python writes the file, and raises its errors
+    writer.Write()
+    return writer.GetOutputString().encode()
+
+
+def _ply(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:
+    rgb: list[tuple[Any, ...]] = [("red", "u1"), ("green", "u1"), ("blue", "u1")]
+    colour = np.zeros((len(KINDS), 3), np.uint8)
+    colour[list(COLOURS)] = list(COLOURS.values())
+
+    kind = np.zeros(len(points), np.uint8)
+    for each in COLOURS:  # where both kinds meet the last one counts
+        kind[mesh.triangles[mesh.kind == each]] = each
+    vertex = np.empty(len(points), [("x", "<f8"), ("y", "<f8"), ("z", "<f8"), ("growth_rate", "<f8"), *rgb])
+    vertex["x"], vertex["y"], vertex["z"] = points.T
+    vertex["growth_rate"] = mesh.decay
+    face = np.empty(
+        len(mesh.triangles), [("n", "u1"), ("i", "<i4", 3), ("kind", "u1"), ("upper", "u1"), *rgb]
+    )
+    face["n"], face["i"], face["kind"], face["upper"] = 3, mesh.triangles, mesh.kind, mesh.upper
+    for data, index in ((vertex, kind), (face, mesh.kind)):
+        for i, (name, _) in enumerate(rgb):
+            data[name] = colour[index, i]
+    comments = "".join(f"comment {name}: {text}\n" for name, text in about.items())
+    header = _HEADER.format(comments=comments, vertices=len(vertex), faces=len(face))
+    return header.encode() + vertex.tobytes() + face.tobytes()
+
+
+def _stl(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:
+    corners = points[mesh.triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    facet = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
+    facet["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
+    facet["corners"] = corners
+    header = f"bikestab: {about['axes']}".encode()[:80].ljust(80)  # "solid" first would mean text
+    return header + np.array(len(facet), "<u4").tobytes() + facet.tobytes()

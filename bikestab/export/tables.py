@@ -1,0 +1,122 @@
+"""The stable intervals of a volume and the skeleton's curves as tables, in CSV or Parquet.
+
+docs/format.md describes the columns.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bikestab.export.formats import file_format
+from bikestab.model import Floats
+from bikestab.speeds import KINDS
+
+if TYPE_CHECKING:
+    from bikestab.region.curves import Curve
+    from bikestab.volume import Volume
+
+Block = dict[str, NDArray]  # some rows of a table: the columns, each of shape (row,)
+Columns = Mapping[str, tuple[str, str]]  # name → pyarrow's name of the type, unit
+
+TABLES = {".csv": "", ".parquet": "pyarrow"}  # ending → package it needs
+_DESIGN = {"lam": ("float64", "rad"), "sigma": ("float64", "1"), "head_angle_deg": ("float64", "degree")}
+_DESIGN |= {"trail": ("float64", "m")}
+_TEXT = ("string", "")
+INTERVALS: Columns = {
+    **_DESIGN, "interval": ("int32", "1"), "V1": ("float64", "m/s"), "V2": ("float64", "m/s"),
+    "lower": _TEXT, "upper": _TEXT,
+}  # fmt: skip
+SKELETON: Columns = {
+    "curve": ("int32", "1"), "name": _TEXT, "closes": ("bool", ""), "point": ("int32", "1"), **_DESIGN,
+    "V": ("float64", "m/s"), "start": _TEXT, "end": _TEXT,
+}  # fmt: skip
+_LAYER = 64  # values of λ read at once: a layer of the volume's chunks
+_ROWS = 10_000  # turned into text at once
+
+
+def interval_blocks(volume: Volume) -> Iterator[Block]:
+    """The rows of INTERVALS: one per stable interval, so none of a design that has no stable speed.
+
+    In the order of λ, then σ, then V. Raises InputError where the volume is damaged.
+    """
+    lam, sigma, c = volume.axis("lam"), volume.axis("sigma"), volume.bicycle.c
+    words = np.array(KINDS)
+    for start in range(0, len(lam), _LAYER):
+        part = slice(start, start + _LAYER)
+        V1, V2, lower, upper = (volume.read(name, (part,)) for name in ("V1", "V2", "lower", "upper"))
+        i, j, k = np.nonzero(upper)
+        numbers = {"interval": (k + 1).astype(np.int32), "V1": V1[i, j, k], "V2": V2[i, j, k]}
+        kinds = {"lower": words[lower[i, j, k]], "upper": words[upper[i, j, k]]}
+        yield {**_designs(lam[part][i], sigma[j], c), **numbers, **kinds}
+
+
+def skeleton_blocks(curves: Sequence[Curve], wheelbase: float) -> Iterator[Block]:
+    """The rows of SKELETON: one per point of a traced curve; ``wheelbase`` in metres."""
+    for number, curve in enumerate(curves, 1):
+        n = len(curve.lam)
+
+        def column(value: object, n: int = n) -> NDArray:
+            return np.full(n, value)
+
+        yield {
+            "curve": np.full(n, number, np.int32), "name": column(curve.name), "closes": column(curve.closes),
+            "point": np.arange(1, n + 1, dtype=np.int32), **_designs(curve.lam, curve.sigma, wheelbase),
+            "V": curve.V, "start": column(curve.ends[0]), "end": column(curve.ends[1]),
+        }  # fmt: skip
+
+
+def _designs(lam: Floats, sigma: Floats, c: float) -> Block:
+    return {"lam": lam, "sigma": sigma, "head_angle_deg": 90 - np.degrees(lam), "trail": sigma * c}
+
+
+def save_table(columns: Columns, blocks: Iterable[Block], path: Path, about: Mapping[str, str]) -> None:
+    """Write a table block by block in the format of the file's ending.
+
+    NaN is an empty field in CSV and null in Parquet, where ``about`` is metadata. Raises InputError for an
+    unknown ending or a missing package, OSError where the file cannot be written.
+    """
+    if file_format(path, TABLES) == ".csv":
+        _csv(columns, blocks, path)
+    else:
+        _parquet(columns, blocks, path, about)
+
+
+def _csv(columns: Columns, blocks: Iterable[Block], path: Path) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        for block in blocks:
+            length = len(block[next(iter(columns))])
+            for start in range(0, length, _ROWS):
+                parts = [_cells(block[name][start : start + _ROWS]) for name in columns]
+                writer.writerows(zip(*parts, strict=True))
+
+
+def _cells(values: NDArray) -> list[object]:
+    """Python's values, whose floats csv writes with as many digits as tell them apart."""
+    if values.dtype == bool:
+        return np.where(values, "true", "false").tolist()
+    return ["" if value != value else value for value in values.tolist()]
+
+
+def _parquet(columns: Columns, blocks: Iterable[Block], path: Path, about: Mapping[str, str]) -> None:
+    import pyarrow
+    from pyarrow.parquet import ParquetWriter
+
+    schema = pyarrow.schema(
+        [
+            pyarrow.field(name, pyarrow.type_for_alias(kind), metadata={"unit": unit} if unit else None)
+            for name, (kind, unit) in columns.items()
+        ],
+        metadata=dict(about),
+    )
+    with path.open("wb") as file, ParquetWriter(file, schema, compression="zstd") as writer:
+        for block in blocks:
+            arrays = [pyarrow.array(block[f.name], type=f.type, from_pandas=True) for f in schema]
+            writer.write_table(pyarrow.Table.from_arrays(arrays, schema=schema))

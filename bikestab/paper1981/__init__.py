@@ -1,0 +1,1 @@
+"""The 1981 paper computed again: its box, its conclusions, its report."""

@@ -1,0 +1,43 @@
+"""Random machines that could be built: two rigid parts, the wheels within them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from bikestab.bicycle import Bicycle
+
+
+def random_machines(number: int, seed: int = 1981) -> Iterator[Bicycle]:
+    """Bicycles and motorcycles of Meijaard's 25 parameters, the same ones for the same seed.
+
+    Each body is given by the spread of its mass along three axes, so its inertias obey every inequality
+    of a rigid body; each wheel lies between a disc and a thin rim, and its part is heavier than it.
+    """
+    rng = np.random.default_rng(seed)
+    for i in range(number):
+        yield Bicycle.from_mapping(_machine(rng), name=f"random {i + 1}")
+
+
+def _machine(rng: np.random.Generator) -> dict[str, float]:
+    w, heavy = rng.uniform(0.8, 1.6), rng.uniform()  # wheelbase [m]; from bicycle (0) to motorcycle (1)
+    masses = {
+        "mB": rng.uniform(50, 100) + 170 * heavy,
+        "mH": rng.uniform(1, 5) + 15 * heavy,
+        "mR": rng.uniform(0.8, 3) + 12 * heavy,
+        "mF": rng.uniform(0.8, 3) + 10 * heavy,
+    }  # kg
+    n = {"w": w, "c": 0.05 * w, "lam": 0.2, **masses}  # its own design is not used
+    n |= {"xB": w * rng.uniform(0.25, 0.5), "zB": -rng.uniform(0.5, 1.1)}
+    n |= {"xH": w * rng.uniform(0.75, 1.05), "zH": -rng.uniform(0.4, 0.9)}
+    for wheel in "RF":
+        r, share = rng.uniform(0.2, 0.37), rng.uniform(0.5, 1)  # of m r²: disc … rim
+        spin = share * n["m" + wheel] * r**2
+        n |= {"r" + wheel: r, f"I{wheel}yy": spin, f"I{wheel}xx": 0.5 * spin * rng.uniform(1, 1.1)}
+    for body, size in (("B", (0.35, 0.2, 0.4)), ("H", (0.12, 0.15, 0.25))):
+        x, y, z = (s * rng.uniform(0.5, 1) for s in size)  # spread of the mass: radii of gyration [m]
+        m, tilt = n["m" + body], rng.uniform(-0.6, 0.6)  # correlation of x and z
+        n |= {f"I{body}xx": m * (y**2 + z**2), f"I{body}yy": m * (x**2 + z**2)}
+        n |= {f"I{body}zz": m * (x**2 + y**2), f"I{body}xz": m * x * z * tilt}
+    return n

@@ -1,0 +1,193 @@
+"""The picture of the (λ, σ) plane: width and ends of the stable interval, skeleton curves, optima."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, PowerNorm
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from bikestab.design.best import Best
+from bikestab.design.criteria import Wanted, counted
+from bikestab.model import Floats
+from bikestab.plot.axes import HALO, label_axes, remarks
+
+# the upper part of cividis: blue is narrow, yellow is wide, and black lines can be read on all of it
+WIDTH = ListedColormap(colormaps["cividis"](np.linspace(0.3, 1, 256)), name="width")
+OPTIMA: dict[str, tuple[str, str, float]] = {  # marker, legend, size
+    "own": ("*", "own design", 15),
+    "widest": ("^", "widest interval", 9),
+    "lowest_V1": ("v", "lowest V₁", 9),
+    "fastest_decay": ("D", "fastest decay", 7.5),
+}
+# red and its shades are on no place of the colour scale; the dashes tell them apart in greyscale
+CURVES: dict[str, tuple[str, Any]] = {
+    "fold": ("#a50026", "-"),
+    "weave meets capsize": ("#a50026", (0, (6, 1.5))),
+    "capsize at infinity": ("#7a0177", (0, (1, 1.2))),
+    "weave at infinity": ("#7a0177", (0, (4, 1.2, 1, 1.2))),
+    "capsize at rest": ("#c2570c", (0, (1, 1.2))),
+    "weave at rest": ("#c2570c", (0, (4, 1.2, 1, 1.2))),
+    "singular inertia": ("#555555", "-"),
+}
+_OTHER = ("#555555", (0, (2, 1)))
+_SAMPLES = 241  # per axis
+_STEPS = np.array([0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100])
+
+
+class Curve(Protocol):
+    """A curve of the (λ, σ) plane, as bikestab.region.curves traces them."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def lam(self) -> Floats: ...
+    @property
+    def sigma(self) -> Floats: ...
+
+
+def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Figure:
+    """The box of ``wanted``, which needs a length in λ and σ, with the designs found and skeleton curves."""
+    figure = Figure(figsize=(8.2, 6.4), layout="constrained")
+    ax = figure.add_subplot()
+    x, y = (np.linspace(*ends, _SAMPLES) for ends in (wanted.lam, wanted.sigma))
+    ax.set_xlim(*wanted.lam)
+    ax.set_ylim(*wanted.sigma)
+    ax.set_facecolor("white")
+    handles = _widths(figure, ax, wanted, x, y)
+    handles += _curves(ax, curves)
+    handles += _optima(ax, best)
+    label_axes(ax, "lam", "sigma", wanted.bicycle.c)
+    figure.legend(
+        handles=handles, loc="outside lower center", ncols=3, handlelength=2.8, frameon=False, fontsize=9
+    )
+    ax.set_title(
+        f"{wanted.bicycle.name}{remarks(wanted.bicycle, wanted.model)}: "
+        f"widest interval of stable speeds up to {wanted.V_max:g} m/s",
+        fontsize=10,
+    )
+    return figure
+
+
+def _widths(figure: Figure, ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> list[Any]:
+    X, Y = np.meshgrid(x, y)
+    found = counted(replace(wanted, stable=None), wanted.table(np.stack([X, Y])))
+    widest = np.argmax(found.width, axis=-1)[..., np.newaxis]
+    width, V1, V2 = (
+        np.take_along_axis(values, widest, axis=-1)[..., 0]
+        for values in (found.width, found.intervals.V1, found.intervals.V2)
+    )
+    some = width > 0
+    handles: list[Any] = []
+    if some.any():
+        image = ax.pcolormesh(
+            x, y, np.ma.masked_where(~some, width), cmap=WIDTH, shading="nearest", rasterized=True,
+            norm=PowerNorm(0.5, vmin=0, vmax=float(width.max())),  # most widths are far below the cap
+        )  # fmt: skip
+        figure.colorbar(image, ax=ax, pad=0.02).set_label("width of the widest stable interval [m/s]")
+        capped = some & (wanted.V_max < V2)
+        if capped.any():
+            _hatch(ax, x, y, capped, "..", "0.35")
+            handles.append(_patch("..", "0.35", f"V₂ above {wanted.V_max:g} m/s or unbounded", WIDTH(0.95)))
+        for values, dashes, label in (
+            (np.where(some, V1, np.nan), "-", "V₁ [m/s]"),
+            (np.where(some & ~capped, V2, np.nan), (0, (5, 2)), "V₂ [m/s]"),
+        ):
+            if _contours(ax, x, y, _cut(values), dashes):
+                handles.append(Line2D([], [], color="black", lw=1, ls=dashes, label=label))
+    else:
+        ax.text(
+            0.5, 0.5, f"no stable speed below {wanted.V_max:g} m/s", transform=ax.transAxes, ha="center",
+            path_effects=HALO,
+        )  # fmt: skip
+    low, high = wanted.box
+    refused = (low[1] > Y) | (high[1] < Y)
+    if wanted.stable:
+        refused |= ~counted(wanted, wanted.table(np.stack([X, Y]))).any
+    if refused.any():
+        ax.contourf(x, y, refused.astype(float), levels=[0.5, 1.5], colors=["white"], alpha=0.55)
+        _hatch(ax, x, y, refused, "////", "0.45")
+        A, B = wanted.stable or (0.0, 0.0)
+        asked = [f"not stable from {A:g} to {B:g} m/s"] if wanted.stable else []
+        asked += ["other trail"] if low[1] > wanted.sigma[0] or high[1] < wanted.sigma[1] else []
+        handles.append(_patch("////", "0.45", " or ".join(asked), "0.92"))
+    if not some.all():
+        handles.append(Patch(facecolor="white", edgecolor="0.5", lw=0.6, label="no stable speed"))
+    return handles
+
+
+def _hatch(ax: Axes, x: Floats, y: Floats, where: Any, pattern: str, color: str) -> None:
+    lines = ax.contourf(x, y, where.astype(float), levels=[0.5, 1.5], colors="none", hatches=[pattern])
+    lines.set_edgecolor(color)
+    lines.set_linewidth(0)
+
+
+def _patch(pattern: str, color: str, label: str, face: Any) -> Patch:
+    return Patch(facecolor=face, hatch=pattern, edgecolor=color, lw=0, label=label)
+
+
+def _cut(values: Floats) -> Floats:
+    """Without the samples at a jump from one interval to another, along which contours would pile up."""
+    steps = [np.abs(np.diff(values, axis=axis)) for axis in (0, 1)]
+    result = values.copy()
+    for axis, step in enumerate(steps):
+        usual = np.nanmedian(step) if np.isfinite(step).any() else 0.0
+        jump = step > max(40 * usual, 0.5)
+        first: list[Any] = [slice(None)] * 2
+        first[axis] = slice(None, -1)
+        result[tuple(first)][jump] = np.nan
+    return result
+
+
+def _contours(ax: Axes, x: Floats, y: Floats, values: Floats, dashes: Any) -> bool:
+    finite = values[np.isfinite(values)]
+    if not finite.size or np.ptp(finite) == 0:
+        return False
+    low, high = np.percentile(finite, [1, 99])
+    step = _STEPS[np.searchsorted(_STEPS, (high - low) / 9, "left").clip(max=len(_STEPS) - 1)]
+    levels = np.arange(np.ceil(finite.min() / step), np.floor(high / step) + 1) * step
+    if not len(levels):
+        return False
+    lines = ax.contour(x, y, np.ma.masked_invalid(values), levels=levels, colors="black", linewidths=1)
+    lines.set_linestyle(dashes)
+    texts = ax.clabel(lines, fmt=lambda level: f"{level:g}", fontsize=8, inline_spacing=3)
+    for text in texts or []:
+        text.set_path_effects(HALO)
+    return True
+
+
+def _curves(ax: Axes, curves: Sequence[Curve]) -> list[Any]:
+    names: dict[str, tuple[str, Any]] = {}
+    for curve in curves:
+        color, dashes = names.setdefault(curve.name, CURVES.get(curve.name, _OTHER))
+        ax.plot(curve.lam, curve.sigma, color="white", lw=3.4, alpha=0.8, solid_capstyle="round", zorder=3)
+        ax.plot(curve.lam, curve.sigma, color=color, lw=1.9, ls=dashes, zorder=3)
+    return [Line2D([], [], color=c, lw=1.9, ls=dashes, label=name) for name, (c, dashes) in names.items()]
+
+
+def _optima(ax: Axes, best: Best) -> list[Any]:
+    handles: list[Any] = []
+    frame: dict[str, Any] = {"ls": "", "mec": "black", "clip_on": False, "zorder": 5}
+    if len(best.pareto) > 2:
+        x, y = ([design[key] for design in best.pareto] for key in ("lam", "sigma"))
+        handles += ax.plot(x, y, marker="o", ms=4.5, mfc="white", mew=0.8, label="width-decay front", **frame)
+    for name, (marker, label, size) in OPTIMA.items():
+        design = getattr(best, name)
+        if design and design["at"] != "outside the box":
+            handles += ax.plot(
+                design["lam"], design["sigma"], marker=marker, ms=size, mew=1.4,
+                mfc="#e8308a" if name == "own" else "white", label=label, **frame,
+            )  # fmt: skip
+    if best.closest:
+        closest = best.closest
+        handles += ax.plot(
+            closest["lam"], closest["sigma"], marker="X", ms=9, mfc="white", mew=1.4, label="closest", **frame
+        )
+    return handles

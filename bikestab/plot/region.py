@@ -1,0 +1,106 @@
+"""The stable region of a volume's box in three dimensions, as in the paper's figure 3."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import cast
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+from mpl_toolkits.mplot3d import Axes3D
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+
+from bikestab.config.scanconfig import AXES
+from bikestab.model import Floats
+from bikestab.plot.axes import LABELS, remarks
+from bikestab.region.mesh import Mesh, region_mesh
+from bikestab.speeds import CAPSIZE, WEAVE
+from bikestab.volume import Volume
+
+# two colours of Okabe and Ito (2008) that differ in greyscale too
+SHEETS = {WEAVE: ("#0072b2", "weave boundary"), CAPSIZE: ("#e69f00", "capsize boundary")}
+_CELLS = 48  # of the mesh, per axis
+_LIGHT = np.array([-0.45, -0.6, 0.66])  # direction to the light, in units of the box
+_SCALE = (1.0, 1.0, 0.85)  # of the drawn box
+
+
+def draw_region(volume: Volume) -> Figure:
+    """The boundary surface within the volume's axes, weave and capsize sheets in two colours."""
+    box = [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in AXES)]
+    mesh = region_mesh(volume.bicycle, box[0], box[1], box[2], model=volume.model, cells=_CELLS, whole=False)
+    figure = Figure(figsize=(7.4, 6.4), layout="constrained")
+    ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
+    if handles := draw_mesh(ax, mesh, box):
+        figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False)
+    bicycle = volume.bicycle
+    heading = f"{volume.title}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
+    ax.set_title(heading, fontsize=10)
+    return figure
+
+
+def draw_mesh(ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]]) -> list[Patch | Line2D]:
+    """The surface in axes that show the box λ [rad] × σ × V [m/s]; words where there is none.
+
+    Returns what the legend has to say. The axes must have been made with ``computed_zorder=False``.
+    """
+    handles: list[Patch | Line2D] = []
+    if len(mesh.triangles):
+        _surface(ax, mesh, np.array(box))
+        handles = _legend(mesh, _rim(ax, mesh, np.array(box)))
+    else:
+        ax.text2D(0.5, 0.5, "no stable motion in this box", transform=ax.transAxes, ha="center")
+    ax.set(
+        xlim=box[0], ylim=box[1], zlim=box[2],
+        xlabel=LABELS["lam"], ylabel=LABELS["sigma"], zlabel=LABELS["V"],
+    )  # fmt: skip
+    for axis, prune in ((ax.xaxis, None), (ax.yaxis, "lower"), (ax.zaxis, None)):
+        axis.set_major_locator(MaxNLocator(6, prune=prune))  # the first labels of x and y would meet
+    ax.view_init(elev=25, azim=-125)
+    ax.set_box_aspect(_SCALE, zoom=0.95)
+    return handles
+
+
+def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
+    corners = mesh.points[mesh.triangles]
+    unit = (mesh.points - ends[:, 0]) / (ends[:, 1] - ends[:, 0])
+    a, b, c = unit[mesh.triangles].swapaxes(0, 1)
+    normal = np.cross(b - a, c - a)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+    light = 0.55 + 0.45 * np.abs(normal @ _LIGHT)  # both sides are seen
+    colour = np.array([to_rgb(SHEETS[kind][0]) for kind in (WEAVE, CAPSIZE)])[mesh.kind - WEAVE]
+    faces = colour * light[:, np.newaxis]
+    ax.add_collection3d(Poly3DCollection(corners, facecolors=faces, edgecolors=faces, linewidths=0.25))
+
+
+def _rim(ax: Axes3D, mesh: Mesh, ends: Floats) -> list[Line2D]:
+    """Where sheets meet, where the surface leaves the box, and where it is open; and what says so."""
+    sides = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
+    edges, index, count = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
+    sheet = np.repeat(mesh.kind * 2 + mesh.upper, 3)
+    low, high = np.full(len(edges), 99), np.zeros(len(edges), int)
+    np.minimum.at(low, index.ravel(), sheet)
+    np.maximum.at(high, index.ravel(), sheet)
+    torn = mesh.open_within(ends)
+    faces = {(int(a), int(b)) for a, b in edges[count == 1]} - {(int(a), int(b)) for a, b in torn}
+    handles = []
+    for lines, style, label in (
+        (edges[low != high], "-", "the sheets meet"),
+        (np.array(sorted(faces)).reshape(-1, 2), (0, (1.5, 1)), "the region goes on beyond the box"),
+        (torn, (0, (5, 1.5, 1, 1.5)), "a vertical wall, or too fine to draw"),
+    ):
+        if len(lines):
+            points = mesh.points[lines.astype(int)]
+            ax.add_collection3d(Line3DCollection(points, colors="0.1", linewidths=0.9, linestyles=[style]))
+            handles.append(Line2D([], [], color="0.1", lw=0.9, ls=style, label=label))
+    return handles
+
+
+def _legend(mesh: Mesh, lines: list[Line2D]) -> list[Patch | Line2D]:
+    patches = [
+        Patch(facecolor=colour, label=label) for kind, (colour, label) in SHEETS.items() if kind in mesh.kind
+    ]
+    return [*patches, *lines]

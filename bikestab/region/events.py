@@ -1,0 +1,152 @@
+"""What happens to the stable intervals at points of the skeleton's curves, and whether it matters."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bikestab.bicycle import Bicycle
+from bikestab.model import Floats, Model, characteristic_table
+from bikestab.region.skeleton import CurveName, Skeleton, curve_functions, reduced
+from bikestab.roots import positive_roots
+from bikestab.routh import conditions
+from bikestab.speeds import stable_intervals
+
+
+class Box(NamedTuple):
+    """The box with coordinates (u, v) from 0 to 1; ``ends`` are its λ and σ, shape (2, 2)."""
+
+    bicycle: Bicycle
+    model: Model
+    ends: Floats
+    V: tuple[float, float]
+
+    def real(self, points: Floats) -> Floats:
+        low, high = self.ends.T.reshape(2, 2, *(1,) * (points.ndim - 1))
+        return low * (1 - points) + high * points  # the ends exactly
+
+    def table(self, points: Floats) -> Floats:
+        return characteristic_table(self.bicycle, *self.real(points), model=self.model)
+
+    def value(self, key: CurveName, points: Floats) -> Floats:
+        return curve_functions(self.table(points), [key])[key]
+
+
+class Event(NamedTuple):
+    """What happens at points of a curve: where, and which other conditions must hold to matter.
+
+    ``V`` (point,); ``holds`` and ``ends`` name, for each of these conditions, whether it does (condition,
+    point) and which curve a piece meets where it ceases to; ``closes`` (point,).
+    """
+
+    V: Floats
+    holds: NDArray[np.bool_]
+    ends: tuple[str, ...]
+    closes: NDArray[np.bool_]
+
+    @property
+    def state(self) -> NDArray[np.intp]:
+        """0 where the stable intervals stay the same, 2 where one closes, 1 where they change otherwise."""
+        return np.where(self.holds.all(axis=0), 1 + self.closes, 0)
+
+
+def event_at(box: Box, key: CurveName, points: Floats) -> Event:
+    """What happens at points (2, point) of a curve."""
+    if key.endswith(("infinity", "rest")):
+        found = _event_at_an_end(key, reduced(box.table(points)))
+    elif key == "singular inertia":
+        return _event_of_inertia(box, points)
+    else:
+        found = _event_within(key, box.table(points))
+    V, (low, high) = found.V, box.V
+    inside = (low <= V) & (high >= V)
+    return found._replace(holds=np.vstack([found.holds, inside]), ends=(*found.ends, "box"))
+
+
+def _event_within(key: CurveName, table: Floats) -> Event:
+    found = reduced(table)
+    x = _common_root(key, found)
+    V, exists = x ** (1 / found.power), np.isfinite(x)
+    weave, p0 = found.polynomials["hurwitz3"], found.polynomials["p0"]
+    with np.errstate(invalid="ignore"):
+        p = conditions(table, V)
+        needed = {
+            "fold": {"weave": exists, "meet": (p.p0 > 0) & (p.p1 > 0), "crossing": p.p3 > 0},
+            "crossing": {"weave": exists, "meet": p.p0 > 0, "fold": (p.p2 > 0) & (p.p2**2 > 4 * p.p4 * p.p0)},
+            "meet": {"capsize": exists, "slow meet": p.p1 > 0, "crossing": p.p3 > 0},
+            "slow meet": {"capsize": exists, "meet": p.p2 > 0, "crossing": p.p3 > 0},
+        }[key] | {"singular inertia": p.p4 > 0}
+        if key == "fold":  # else two intervals meet and become one
+            closes = _value(_slope(_slope(weave)), x) < 0
+        elif key == "crossing":
+            closes = exists
+        else:  # else weave and capsize change places at one end
+            closes = _value(_slope(p0), x) * _value(_slope(weave), x) < 0
+    return Event(V, np.array(list(needed.values())), tuple(needed), closes)
+
+
+def _slope(poly: Floats) -> Floats:
+    return (np.arange(len(poly))[:, np.newaxis] * poly)[1:]
+
+
+def _value(poly: Floats, x: Floats) -> Floats:
+    """Polynomials (power, point) at x (…, point)."""
+    value = np.zeros(np.broadcast_shapes(poly.shape[1:], x.shape))
+    for c in poly[::-1]:
+        value = value * x + c
+    return value
+
+
+def _event_at_an_end(key: CurveName, found: Skeleton) -> Event:
+    """A root of p0 or hurwitz3 leaves to infinity or to rest: the others must be positive there."""
+    infinite = key.endswith("infinity")
+    at = -1 if infinite else 0
+    own = "p0" if key.startswith("capsize") else "hurwitz3"
+    names = [name for name in ("p0", "p1", "p2", "p3", "p4", "hurwitz3") if name != own]
+    values = np.array([found.polynomials[name][at] for name in names])
+    # p1 is a factor of hurwitz3's coefficient, and then zero but for rounding
+    allowed = np.array(
+        [1e-9 * np.abs(v).max() if name == "p1" else 0.0 for name, v in zip(names, values, strict=True)]
+    )
+    where = key.split(" ", 1)[1]
+    ends = {
+        "p0": f"capsize {where}",
+        "hurwitz3": f"weave {where}",
+        "p1": f"weave {where}",
+        "p4": "singular inertia",
+    }
+    V = np.full(values.shape[1], np.inf if infinite else 0.0)
+    return Event(
+        V, values > -allowed[:, np.newaxis], tuple(ends.get(name, "crossing") for name in names), V < 0
+    )
+
+
+def _event_of_inertia(box: Box, points: Floats) -> Event:
+    """All motion becomes unstable where p4 changes sign."""
+    along = np.gradient(points, axis=1) if points.shape[1] > 1 else np.ones_like(points)
+    aside = np.array([-along[1], along[0]]) / np.maximum(np.hypot(*along), 1e-300) * 1e-7
+    number = [stable_intervals(box.table(points + sign * aside)).number for sign in (1, -1)]
+    V = np.full(points.shape[1], np.nan)
+    return Event(V, (number[0] != number[1])[np.newaxis], ("weave",), np.zeros(len(V), bool))
+
+
+def _common_root(key: CurveName, found: Skeleton) -> Floats:
+    """The positive x (point,) at which two of the reduced conditions vanish together; NaN where none does."""
+    weave, p0, p1, p3, q = (found.polynomials[name] for name in ("hurwitz3", "p0", "p1", "p3", "q"))
+    candidates, other = {
+        "fold": (_slope(weave), weave),
+        "crossing": (p1, p3),
+        "meet": (p0, q),
+        "slow meet": (p0, p1),
+    }[key]
+    signs = np.where(np.arange(len(candidates)) % 2, -1.0, 1.0)[:, np.newaxis]
+    x = np.concatenate([positive_roots(candidates), -positive_roots(candidates * signs)])
+    if not len(x):
+        return np.full(p0.shape[1], np.nan)
+    with np.errstate(invalid="ignore"):
+        residual = np.abs(_value(other, x)) / _value(np.abs(other), np.abs(x))
+    common = np.argmin(np.where(np.isnan(residual), np.inf, residual), axis=0)
+    x = x[common, np.arange(x.shape[1])]
+    return np.where(x > 0, x, np.nan)

@@ -1,0 +1,1 @@
+"""A config → its volume: cut into tiles, computed, kept, put together, checked."""

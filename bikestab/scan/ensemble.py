@@ -1,0 +1,104 @@
+"""Many machines → how probable stability is at each (λ, σ, V), and how the stable speeds spread.
+
+The machines are counted through their exact stable intervals, and counts do not depend on how the work is
+divided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bikestab.machines import Machines
+from bikestab.model import Floats, Model, characteristic_table
+from bikestab.speeds import Intervals, stable_intervals
+
+_PAIRS = 1 << 15  # of a machine and a (λ, σ), worked on at a time: some 20 MB
+
+
+class Statistics(NamedTuple):
+    """What an ensemble's machines do at cells of (λ, σ) and at speeds V.
+
+    ``probability`` (cell, V) is the share of machines with V1 < V < V2 in one of their stable intervals;
+    ``somewhere`` (cell,) the share with any stable speed, ``unbounded`` (cell,) that without an upper limit.
+    ``V1`` and ``V2`` (cell, quantile) [m/s] are quantiles of the ends of each machine's widest interval,
+    over the machines that have one: the smallest end that at least that share of them does not exceed.
+    They are NaN where no machine has one, and V2 is inf where the quantile's interval is unbounded.
+    """
+
+    probability: NDArray[np.float32]
+    somewhere: Floats
+    unbounded: Floats
+    V1: Floats
+    V2: Floats
+
+
+def ensemble_statistics(
+    machines: Machines, lam: Floats, sigma: Floats, V: Floats, model: Model, quantiles: Sequence[float]
+) -> Statistics:
+    """Statistics of machines at the cells λ [rad] and σ [1], both (cell,), and at ascending speeds V [m/s].
+
+    ``quantiles`` lie between 0 and 1. Of two intervals of equal width the lower counts as the widest.
+    Needs memory for the result and for 16 bytes per machine.
+    """
+    step = max(_PAIRS // machines.number, 1)
+    parts = [
+        _of_cells(machines, lam[start : start + step], sigma[start : start + step], V, model, quantiles)
+        for start in range(0, len(lam), step)
+    ]
+    return Statistics(*(np.concatenate(values) for values in zip(*parts, strict=True)))
+
+
+def _of_cells(
+    machines: Machines, lam: Floats, sigma: Floats, V: Floats, model: Model, quantiles: Sequence[float]
+) -> Statistics:
+    number, cells = machines.number, len(lam)
+    V1, V2 = np.empty((2, cells, number))
+    steps = np.zeros((cells, len(V) + 1), np.int64)
+    unbounded = np.zeros(cells, np.int64)
+    step = max(_PAIRS // cells, 1)
+    for start in range(0, number, step):
+        part = slice(start, start + step)
+        found = stable_intervals(characteristic_table(machines.part(part), lam, sigma, model=model))
+        V1[:, part], V2[:, part] = _widest(found)
+        steps += _steps(found, V)
+        unbounded += np.count_nonzero(np.isinf(found.V2), axis=(0, 2))
+    stable = np.count_nonzero(np.isfinite(V1), axis=1)
+    return Statistics(
+        probability=(np.cumsum(steps, axis=1)[:, :-1] / number).astype(np.float32),
+        somewhere=stable / number,
+        unbounded=unbounded / number,
+        V1=_quantiles(V1, stable, quantiles),
+        V2=_quantiles(V2, stable, quantiles),
+    )
+
+
+def _widest(found: Intervals) -> tuple[Floats, Floats]:
+    """V1 and V2 (cell, machine) of the widest of each machine's intervals (machine, cell, interval)."""
+    width = np.where(found.upper > 0, found.V2 - found.V1, -1.0)
+    index = np.argmax(width, axis=-1, keepdims=True)  # the first of equal ones
+    V1, V2 = (np.take_along_axis(end, index, axis=-1)[..., 0].T for end in (found.V1, found.V2))
+    return V1, V2
+
+
+def _steps(found: Intervals, V: Floats) -> NDArray[np.int64]:
+    """By how much the number of stable machines rises from each speed to the next (cell, V + 1)."""
+    cells, width = found.V1.shape[1], len(V) + 1
+    row = width * np.arange(cells)[:, np.newaxis]
+    first = row + np.searchsorted(V, found.V1, side="right")  # behind an end NaN is the last step: no rise
+    last = row + np.searchsorted(V, found.V2, side="left")
+    rises, falls = (np.bincount(at.ravel(), minlength=cells * width) for at in (first, last))
+    return (rises - falls).reshape(cells, width)
+
+
+def _quantiles(values: Floats, count: NDArray[np.intp], quantiles: Sequence[float]) -> Floats:
+    """Order statistics (cell, quantile) of the ``count`` (cell,) numbers among the values (cell, machine).
+
+    Nothing is interpolated, which between two unbounded intervals would be inf − inf.
+    """
+    rank = np.ceil(count[:, np.newaxis] * np.asarray(quantiles) - 1e-9)  # 0.07 × 100 is 7
+    index = np.maximum(rank.astype(np.intp) - 1, 0)
+    return np.take_along_axis(np.sort(values, axis=1), index, axis=1)  # NaN last

@@ -1,0 +1,72 @@
+"""The picture of the region in three dimensions."""
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from bikestab.config.file import load_config
+from bikestab.plot.region import SHEETS, draw_region
+from bikestab.scan.run import run_scan
+from bikestab.volume import Volume
+
+CONFIG = """
+title: a box
+bicycle: {bicycle}
+model: {model}
+grid:
+  lam: {{start: 0, stop: 0.3, num: 3}}
+  sigma: {{start: 0, stop: 0.15, num: 3}}
+  V: {{start: 0, stop: 12, num: 3}}
+fields: [stable]
+output: {output}
+"""
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    def draw(bicycle="dikarev1981", model="refined"):
+        path = tmp_path / "c.yaml"
+        path.write_text(CONFIG.format(bicycle=bicycle, model=model, output=tmp_path / bicycle))
+        with Volume(run_scan(load_config(path)).path) as volume:
+            return draw_region(volume)
+
+    return draw
+
+
+def words(figure):
+    return [text.get_text() for text in figure.findobj(lambda artist: hasattr(artist, "get_text"))]
+
+
+def test_two_sheets_in_two_colours(drawn):
+    figure = drawn()
+    (surface,) = (c for c in figure.axes[0].collections if isinstance(c, Poly3DCollection))
+    colours = surface.get_facecolor()[:, :3]
+    hue = colours / np.linalg.norm(colours, axis=1, keepdims=True)
+    for colour, label in SHEETS.values():
+        expected = np.array(to_rgb(colour)) / np.linalg.norm(to_rgb(colour))
+        assert np.isclose(hue, expected, atol=1e-6).all(axis=1).sum() > 100
+        assert label in words(figure)
+
+
+def test_axes_are_the_volumes_box(drawn):
+    ax = drawn("meijaard2007").axes[0]
+    assert (ax.get_xlim(), ax.get_ylim(), ax.get_zlim()) == ((0, 0.3), (0, 0.15), (0, 12))
+    assert "λ [rad]" in ax.get_xlabel()
+    assert "[m/s]" in ax.get_zlabel()
+    assert ax.get_title().startswith("a box\nmeijaard2007")
+
+
+def test_one_sheet_and_an_open_side(drawn):
+    figure = drawn("kooijman2011")
+    assert "weave boundary" in words(figure)
+    assert "capsize boundary" not in words(figure)
+    assert "a vertical wall, or too fine to draw" in words(figure)
+    assert "a vertical wall, or too fine to draw" not in words(drawn())
+
+
+def test_nothing_stable(drawn):
+    figure = drawn(model="unrefined")
+    assert "no stable motion in this box" in words(figure)
+    assert "unrefined model" in figure.axes[0].get_title()
+    assert not [c for c in figure.axes[0].collections if isinstance(c, Poly3DCollection)]

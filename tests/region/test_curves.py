@@ -1,0 +1,179 @@
+"""The traced curves: on their equations in 40 digits, complete, and with the right ends."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from mpmath import mp, mpf
+
+from bikestab.bicycle import Bicycle
+from bikestab.model import characteristic_table
+from bikestab.region.curves import NAMES, trace
+from bikestab.region.skeleton import stable_ranges
+from bikestab.speeds import stable_intervals
+from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
+from tests.strategies import machines
+
+DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
+LAM, SIGMA = (0.0, 0.6), (0.0, 0.5)
+
+
+@pytest.fixture(scope="module")
+def curves():
+    return {
+        (name, delta): trace(bicycle.with_delta(delta), LAM, SIGMA, samples=241)
+        for name, bicycle in (("1981", DIKAREV), ("2007", MEIJAARD))
+        for delta in (0.0, 1.0)
+    }
+
+
+def conditions_40(machine, delta, lam, sigma):
+    return condition_polynomials(polynomial(machine, lam, sigma, delta, "refined"))
+
+
+def derivative(poly):
+    return {j - 1: j * x for j, x in poly.items() if j}
+
+
+def exact_point(machine, delta, name, lam, sigma, V):
+    """The point of a curve at the same λ, or at the same σ, that 40-digit arithmetic finds; the nearer."""
+
+    def equations(lam, sigma, V=None):
+        found = conditions_40(machine, delta, lam, sigma)
+        if name in ("capsize at infinity", "weave at infinity"):
+            poly = found["p0" if name.startswith("capsize") else "hurwitz3"]
+            return [poly[max(poly)].value]
+        second = derivative(found["hurwitz3"]) if name == "fold" else found["p0"]
+        return [at(found["hurwitz3"], V), at(second, V)]
+
+    with mp.workdps(40):
+        start = [] if np.isinf(V) else [mpf(V)]
+        found = []
+        for fixed in ("lam", "sigma"):
+            run, free = (mpf(sigma), mpf(lam)) if fixed == "lam" else (mpf(lam), mpf(sigma))
+
+            def function(x, *V, fixed=fixed, free=free):
+                return equations(free, x, *V) if fixed == "lam" else equations(x, free, *V)
+
+            solution = mp.findroot(function, [run, *start], tol=1e-25, verify=False, maxsteps=12)
+            found.append(abs(solution[0] - run))
+        return float(min(found))
+
+
+@pytest.mark.parametrize("which", [("1981", 0.0), ("1981", 1.0), ("2007", 0.0)], ids=str)
+def test_points_satisfy_the_defining_equations_in_40_digits(curves, which):
+    machine = {"1981": PAPER, "2007": BENCHMARK}[which[0]]
+    for curve in curves[which]:
+        for i in np.unique(np.linspace(1, len(curve.lam) - 2, 5).astype(int)):
+            point = float(curve.lam[i]), float(curve.sigma[i]), float(curve.V[i])
+            assert exact_point(machine, which[1], curve.name, *point) < 1e-10, (curve.name, point)
+
+
+def test_the_curves_of_the_papers_bicycle(curves):
+    """The short fold, the three infinite and rest curves and where they meet; found once, kept by value."""
+    found = curves["1981", 0.0]
+    fold = [curve for curve in found if curve.name == "fold"]
+    assert len(fold) == 1
+    assert set(fold[0].ends) == {"weave at infinity", "weave meets capsize"}
+    ends = sorted((float(fold[0].lam[i]), float(fold[0].sigma[i])) for i in (0, -1))
+    np.testing.assert_allclose(ends, [[0.0469790, 0.1515630], [0.0496178, 0.1533011]], atol=1e-6)
+    for name in ("capsize at infinity", "weave at infinity"):
+        (curve,) = [curve for curve in found if curve.name == name]
+        corner = [(x, y) for x, y in zip(curve.lam, curve.sigma, strict=True) if abs(x - 0.0881670) < 1e-6]
+        np.testing.assert_allclose(corner, [[0.0881669521, 0.1107011842]], atol=1e-9)
+        assert np.all(np.isinf(curve.V))
+
+
+def test_ends_meet_what_they_name(curves):
+    for found in curves.values():
+        for curve in found:
+            for name, at_ in zip(curve.ends, (0, -1), strict=True):
+                here = curve.lam[at_], curve.sigma[at_]
+                if name == "box":
+                    edges = [here[0] - LAM[0], LAM[1] - here[0], here[1] - SIGMA[0], SIGMA[1] - here[1]]
+                    assert min(edges) == 0
+                elif name != "closed":
+                    others = [c for c in found if c.name == name and c is not curve]
+                    gap = min(np.hypot(c.lam - here[0], c.sigma - here[1]).min() for c in others)
+                    assert gap < 2e-3, (curve.name, name)  # a point of the other within a step of its samples
+
+
+@pytest.mark.parametrize("which", [("1981", 0.0), ("1981", 1.0), ("2007", 0.0), ("2007", 1.0)], ids=str)
+def test_nothing_is_missing(curves, which):
+    """Every end of a stable range on random lines, found without the grid, lies on a traced closing curve."""
+    bicycle = {"1981": DIKAREV, "2007": MEIJAARD}[which[0]].with_delta(which[1])
+    lam = np.random.default_rng(3).uniform(0, 0.6, 40)
+    closing = [curve for curve in curves[which] if curve.closes or "infinity" in curve.name]
+    for value, ranges in zip(lam, stable_ranges(bicycle, *SIGMA, lam=lam), strict=True):
+        for end in {x for ends in ranges for x in ends} - set(SIGMA):
+            gaps = []
+            for curve in closing:
+                i = np.flatnonzero((curve.lam[:-1] - value) * (curve.lam[1:] - value) <= 0)
+                t = (value - curve.lam[i]) / (curve.lam[i + 1] - curve.lam[i])
+                gaps.extend(np.abs(curve.sigma[i] + t * (curve.sigma[i + 1] - curve.sigma[i]) - end))
+            assert min(gaps, default=np.inf) < 1e-4, (value, end)  # of the chord between two of its points
+
+
+@pytest.mark.parametrize("which", [("1981", 0.0), ("2007", 1.0)], ids=str)
+def test_what_happens_across(curves, which):
+    """An interval appears across a closing curve; across the others only the kinds of its ends change."""
+    bicycle = {"1981": DIKAREV, "2007": MEIJAARD}[which[0]].with_delta(which[1])
+    long = [curve for curve in curves[which] if len(curve.lam) > 20]
+    assert len(long) >= 5
+    for curve in long:
+        along = np.array([np.gradient(curve.lam), np.gradient(curve.sigma)])[:, 3:-3]
+        aside = np.array([-along[1], along[0]]) / np.hypot(*along) * 1e-6
+        sides = [
+            stable_intervals(characteristic_table(bicycle, curve.lam[3:-3] + x, curve.sigma[3:-3] + y))
+            for x, y in (aside, -aside)
+        ]
+        number = np.abs(sides[0].number - sides[1].number)
+        if curve.closes:
+            assert np.median(number) == 1, curve.name
+        elif curve.name == "weave meets capsize":
+            assert np.median(number) == 0
+        else:
+            infinite = [np.isposinf(side.V2).any(axis=-1) for side in sides]
+            assert np.mean(infinite[0] != infinite[1]) > 0.9, curve.name
+
+
+@pytest.mark.parametrize("which", ["1981", "2007"])
+def test_no_unbounded_interval_outside_its_curves(curves, which):
+    """A million random designs: to infinity only between weave and capsize at infinity."""
+    bicycle = {"1981": DIKAREV, "2007": MEIJAARD}[which]
+    lam, sigma = np.random.default_rng(5).uniform(0, [[0.6], [0.5]], (2, 1_000_000))
+    infinite = np.isposinf(stable_intervals(characteristic_table(bicycle, lam, sigma)).V2).any(axis=-1)
+    named = {curve.name: curve for curve in curves[which, 0.0]}
+    ends = []
+    for name in ("weave at infinity", "capsize at infinity"):
+        order = np.argsort(named[name].sigma)
+        ends.append(np.interp(sigma, named[name].sigma[order], named[name].lam[order]))
+    left, right = ends
+    left[sigma > named["weave at infinity"].sigma.max()] = -np.inf  # the curve has left the box through λ = 0
+    corner = max(curve.sigma.min() for curve in named.values() if "infinity" in curve.name)
+    expected = (lam > left) & (lam < right) & (sigma > corner)
+    near = np.minimum(np.abs(lam - left), np.abs(lam - right)) < 1e-4  # chords of the curves
+    np.testing.assert_array_equal(infinite[~near], expected[~near])
+    assert 0.005 < infinite.mean() < 0.5
+
+
+@settings(max_examples=5, deadline=None)
+@given(machines)
+def test_random_machines(machine):
+    bicycle = Bicycle.from_mapping(machine)
+    found = trace(bicycle, LAM, (0.0, 0.3), samples=61)
+    for curve in found:
+        assert curve.name in NAMES.values()
+        assert len(curve.lam) == len(curve.sigma) == len(curve.V) > 1
+        assert np.all(np.isfinite(curve.lam) & np.isfinite(curve.sigma))
+        assert not curve.closes or "infinity" not in curve.name
+    sigma = 0.1234
+    (ranges,) = stable_ranges(bicycle, *LAM, sigma=sigma)
+    for a, b in ranges:
+        if b - a > 0.05:  # what the coarse grid cannot miss
+            for end in {a, b} - set(LAM):
+                i = [
+                    np.abs(np.interp(sigma, c.sigma[k : k + 2], c.lam[k : k + 2]) - end)
+                    for c in found
+                    for k in np.flatnonzero((c.sigma[:-1] - sigma) * (c.sigma[1:] - sigma) <= 0)
+                ]
+                assert min(i, default=np.inf) < 0.02

@@ -1,0 +1,198 @@
+"""The mesh of the boundary: on the surface, closed, oriented, and stable on one side."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from bikestab.bicycle import Bicycle
+from bikestab.errors import ScanError
+from bikestab.model import characteristic_table
+from bikestab.region.curves import trace
+from bikestab.region.events import Box
+from bikestab.region.mesh import region_mesh
+from bikestab.routh import conditions, stable
+from bikestab.speeds import CAPSIZE, WEAVE, stable_intervals
+from tests.strategies import machines
+
+DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
+CASES = {
+    "1981": (DIKAREV, (0.0, 0.3), (0.0, 0.15), (0.0, 15.0)),
+    "1981 unbounded": (DIKAREV, (0.0, 0.2), (0.05, 0.3), (1.0, 20.0)),
+    "1981 damped": (DIKAREV.with_delta(1.0), (0.0, 0.3), (0.0, 0.15), (0.0, 15.0)),
+    "2007": (MEIJAARD, (0.0, 0.6), (0.0, 0.5), (0.0, 15.0)),
+    "2007 damped": (MEIJAARD.with_delta(1.0), (0.0, 0.6), (0.0, 0.5), (1.0, 20.0)),
+    "1981 capsize below": (DIKAREV, (0.0, 0.045), (0.13, 0.16), (2.0, 4.5)),
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def case(request):
+    bicycle, *ends = CASES[request.param]
+    return bicycle, ends, region_mesh(bicycle, *ends, cells=40)
+
+
+def eigenvalues(bicycle, points):
+    """Of every point (point, 3), from the companion matrix of numpy's own making."""
+    lam, sigma, V = points.T
+    p = np.array(
+        [sum(c * V**j for j, c in enumerate(row)) for row in characteristic_table(bicycle, lam, sigma)]
+    )
+    matrix = np.zeros((len(V), 4, 4))
+    matrix[:, 0] = (-p[3::-1] / p[4]).T
+    matrix[:, [1, 2, 3], [0, 1, 2]] = 1
+    return np.linalg.eigvals(matrix)
+
+
+def test_every_point_is_on_its_surface(case):
+    """|f| / |∇f| in units of the box: the distance from the zero of the condition."""
+    bicycle, ends, mesh = case
+    size = np.ptp(ends, axis=1)
+    for kind, name in ((WEAVE, "hurwitz3"), (CAPSIZE, "p0")):
+        points = mesh.points[np.unique(mesh.triangles[mesh.kind == kind])]
+
+        def value(points, name=name):
+            table = characteristic_table(bicycle, points[:, 0], points[:, 1])
+            return getattr(conditions(table, points[:, 2]), name)
+
+        h = 1e-5 * np.diag(size)
+        slope = np.array([(value(points + e) - value(points - e)) / 2e-5 for e in h])
+        assert np.abs(value(points) / np.linalg.norm(slope, axis=0)).max(initial=0) < 1e-9
+
+
+def test_eigenvalues_are_where_the_kind_says(case):
+    """Capsize has an eigenvalue zero, weave a pair on the imaginary axis; nothing is further to the right."""
+    bicycle, _, mesh = case
+    for kind in (WEAVE, CAPSIZE):
+        points = mesh.points[np.unique(mesh.triangles[mesh.kind == kind])]
+        s = eigenvalues(bicycle, points[:: max(len(points) // 500, 1)])
+        size = np.abs(s).max(axis=1)
+        nearest = np.abs(s.real if kind == WEAVE else s).min(axis=1)
+        # two eigenvalues meet at zero where weave starts at capsize: there rounding's square root is left
+        assert np.quantile(nearest / size, 0.8) < 1e-9
+        assert (nearest / size).max() < 1e-5
+        assert (s.real.max(axis=1) / size).max() < 1e-5
+
+
+def test_no_holes_and_no_ragged_edge(case):
+    bicycle, ends, mesh = case
+    assert len(mesh.open_edges(Box(bicycle, "refined", np.array(ends[:2]), ends[2]))) == 0
+    sides = mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    edges, index, count = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
+    assert count.max() == 2
+    way = np.zeros(len(edges))
+    np.add.at(way, index.ravel(), np.where(sides[:, 0] < sides[:, 1], 1, -1))
+    np.testing.assert_array_equal(way[count == 2], 0)  # the neighbours run along a side in opposite ways
+    for end, axis in zip(np.array(ends).T, (mesh.points.min(axis=0), mesh.points.max(axis=0)), strict=True):
+        assert np.all(axis >= np.array(ends)[:, 0])
+        assert np.all(axis <= np.array(ends)[:, 1]), end
+
+
+def test_a_torn_mesh_is_noticed(case):
+    bicycle, ends, mesh = case
+    torn = mesh._replace(triangles=np.delete(mesh.triangles, len(mesh.triangles) // 2, axis=0))
+    assert len(torn.open_edges(Box(bicycle, "refined", np.array(ends[:2]), ends[2]))) >= 1
+
+
+def test_the_outside_is_unstable(case):
+    """Upwards from an upper sheet, downwards from a lower one, which is where the corners' order points."""
+    bicycle, ends, mesh = case
+    a, b, c = mesh.points[mesh.triangles].swapaxes(0, 1)
+    assert np.all(np.cross(b - a, c - a)[:, 2] * np.where(mesh.upper, 1, -1) >= 0)
+    for outwards in (1, -1):
+        shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
+        points = mesh.points[np.setdiff1d(mesh.triangles[mesh.upper == (outwards > 0)], shared)]
+        points = points[(points[:, 2] > ends[2][0]) & (points[:, 2] < ends[2][1])]
+        table = characteristic_table(bicycle, points[:, 0], points[:, 1])
+        step = 1e-7 * outwards
+        assert np.mean(stable(table, points[:, 2] - step)) > 0.99  # but for what is thinner than the step
+        assert not stable(table, points[:, 2] + step).any()
+
+
+def test_sheets_are_the_ends_of_the_intervals(case):
+    """Points off the curves: V is V1 or V2 of that design to the last digit."""
+    bicycle, ends, mesh = case
+    shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
+    for upper in (False, True):
+        index = np.setdiff1d(mesh.triangles[mesh.upper == upper], shared)
+        points = mesh.points[index]
+        points = points[np.all((points > np.array(ends)[:, 0]) & (points < np.array(ends)[:, 1]), axis=1)]
+        found = stable_intervals(characteristic_table(bicycle, points[:, 0], points[:, 1]))
+        gap = np.nanmin(np.abs((found.V2 if upper else found.V1) - points[:, 2:]), axis=1)
+        assert np.mean(gap == 0) > 0.9  # the others are on a curve where two sheets change places
+        assert gap.max() < 1e-6
+
+
+def test_the_rim_is_the_skeleton(case):
+    bicycle, ends, mesh = case
+    shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
+    rim = mesh.points[shared]
+    curves = [c for c in trace(bicycle, *ends, samples=321) if c.name in ("fold", "weave meets capsize")]
+    for point in rim[:: max(len(rim) // 40, 1)]:
+        gaps = []
+        for curve in curves:
+            a = np.array([curve.lam[:-1], curve.sigma[:-1]])
+            d = np.array([curve.lam[1:], curve.sigma[1:]]) - a
+            w = point[:2, None] - a
+            t = np.clip((w * d).sum(axis=0) / np.maximum((d * d).sum(axis=0), 1e-300), 0, 1)
+            gaps.append(np.hypot(*(w - t * d)).min())
+        assert min(gaps) < 5e-5  # of the chords between the curve's points
+
+
+def test_decay_is_the_lowest_growth_rate_of_the_interval(case):
+    bicycle, ends, mesh = case
+    assert np.all(mesh.decay <= 0)
+    assert mesh.decay.min() < -0.01
+    shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
+    single = np.setdiff1d(mesh.triangles[mesh.upper], shared)[::97]
+    for lam, sigma, V2 in mesh.points[single]:
+        found = stable_intervals(characteristic_table(bicycle, lam, sigma))
+        k = int(np.nanargmin(np.abs(found.V2 - V2)))
+        V = np.linspace(max(found.V1[k], ends[2][0]), V2, 33)
+        lowest = eigenvalues(bicycle, np.column_stack([np.full_like(V, lam), np.full_like(V, sigma), V]))
+        i = np.flatnonzero(np.all(mesh.points == [lam, sigma, V2], axis=1))[0]
+        assert mesh.decay[i] == pytest.approx(lowest.real.max(axis=1).min(), abs=1e-6)
+
+
+def test_an_empty_box():
+    mesh = region_mesh(DIKAREV, (0.0, 0.1), (0.0, 0.05), (0.0, 10.0), cells=20)
+    assert mesh.points.shape == (0, 3)
+    assert mesh.triangles.shape == (0, 3)
+    assert len(mesh.kind) == len(mesh.upper) == len(mesh.decay) == 0
+
+
+def test_a_vertical_wall_is_refused():
+    """Where p0 does not depend on the speed, capsize starts at all speeds at once."""
+    box = (0.0, 0.3), (0.0, 0.15), (0.0, 10.0)
+    skates = Bicycle.preset("kooijman2011")
+    with pytest.raises(ScanError, match="vertical wall"):
+        region_mesh(skates, *box, cells=20)
+    mesh = region_mesh(skates, *box, cells=20, whole=False)
+    assert len(mesh.triangles)
+    assert len(mesh.open_edges(Box(skates, "refined", np.array(box[:2]), box[2])))
+
+
+def test_both_kinds_are_there():
+    mesh = region_mesh(*CASES["1981 unbounded"], cells=30)
+    assert set(mesh.kind) == {WEAVE, CAPSIZE}
+    top = mesh.points[:, 2] == 20.0
+    assert top.any()
+    assert not np.any(np.isinf(mesh.points))
+
+
+def test_more_cells_make_a_finer_mesh():
+    sizes = [len(region_mesh(*CASES["2007"], cells=n).triangles) for n in (20, 40)]
+    assert 3 < sizes[1] / sizes[0] < 5
+
+
+@settings(max_examples=6, deadline=None)
+@given(machines)
+def test_random_machines(machine):
+    """What cannot be closed is said to be open, never handed out."""
+    bicycle = Bicycle.from_mapping(machine)
+    ends = (0.0, 0.6), (0.0, 0.3), (0.5, 20.0)
+    try:
+        mesh = region_mesh(bicycle, *ends, cells=25)
+    except ScanError:
+        return
+    assert len(mesh.open_edges(Box(bicycle, "refined", np.array(ends[:2]), ends[2]))) == 0
+    assert np.isfinite(mesh.points).all()

@@ -1,0 +1,120 @@
+"""What would help a design that has no stable speed."""
+
+import numpy as np
+import pytest
+
+from bikestab.bicycle import Bicycle
+from bikestab.model import characteristic_table
+from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, nearest_stable
+from bikestab.spectrum import growth_rate
+from bikestab.speeds import stable_intervals
+
+DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
+
+
+def stable(bicycle, lam, sigma, model="refined"):
+    return stable_intervals(characteristic_table(bicycle, lam, sigma, model=model)).number > 0
+
+
+@pytest.fixture(scope="module")
+def found():
+    """The paper's bicycle at (0.1, 0.08), which it calls never stable."""
+    return nearest_stable(DIKAREV, 0.1, 0.08)
+
+
+def test_keys_and_their_order(found):
+    assert list(found) == ["sigma_min", "lam_min", "lam_max", "V", "growth_rate"]
+    assert all(type(value) is float for value in found.values())
+
+
+def test_sigma_min_separates(found):
+    sigma = found["sigma_min"]
+    assert stable(DIKAREV, 0.1, sigma)
+    assert not stable(DIKAREV, 0.1, sigma - 1e-12)
+    assert not stable(DIKAREV, 0.1, np.linspace(0.08, sigma - 1e-9, 5001)).any()
+
+
+def test_lam_min_separates(found):
+    lam = found["lam_min"]
+    assert stable(DIKAREV, lam, 0.08)
+    assert not stable(DIKAREV, lam - 1e-12, 0.08)
+    assert not stable(DIKAREV, np.linspace(0.1, lam - 1e-9, 5001), 0.08).any()
+    assert stable(DIKAREV, np.linspace(lam, found["lam_max"], 5001), 0.08).all()
+
+
+def test_the_upper_end_of_the_search_is_the_upper_end(found):
+    assert found["lam_max"] == LAM_RANGE[1]
+
+
+def test_a_range_of_lam_with_two_ends():
+    """The benchmark bicycle with damping is stable at σ = 0.25 for λ around 0.07 and above 0.11 rad."""
+    bicycle = MEIJAARD.with_delta(2.0)
+    near = nearest_stable(bicycle, 0.05, 0.25)
+    low, high = near["lam_min"], near["lam_max"]
+    assert 0.05 < low < high < 0.1
+    for inside, outside in ((low, low - 1e-12), (high, high + 1e-12)):
+        assert stable(bicycle, inside, 0.25)
+        assert not stable(bicycle, outside, 0.25)
+    assert nearest_stable(bicycle, 0.1, 0.25)["lam_min"] > 0.1
+
+
+def test_the_nearer_of_two_ranges_of_lam():
+    """At σ = 0.1475 the paper's bicycle has stable speeds at small and at larger λ, with a gap between."""
+    sigma, lams = 0.1475, np.linspace(*LAM_RANGE, 6001)
+    good = stable(DIKAREV, lams, sigma)
+    assert good[np.searchsorted(lams, 0.015)]
+    starts = np.flatnonzero(np.diff(good.astype(int)) == 1)
+    assert len(starts) == 2
+    gap = np.flatnonzero(~good & (lams > 0.015) & (lams < 0.2))
+    for index, side in ((gap[0], "lower"), (gap[-1], "upper")):
+        near = nearest_stable(DIKAREV, float(lams[index]), sigma)
+        assert (near["lam_max"] < lams[index]) == (side == "lower")
+        ends = np.array([near["lam_min"], near["lam_max"]])
+        assert np.abs(ends - lams[index]).min() < 2 * lams[1]
+
+
+def test_nothing_helps():
+    """Without the refinement, and without spinning wheels, no upright steering axis is stable."""
+    bicycle = Bicycle(
+        c=1, m1=80, l1=0.4, h1=0.9, A1=3, B1=6, C1=0, R1=0.35,
+        m2=3, l2=0.9, h2=0.5, A2=0.1, B2=0.1, C2=0, R2=0.35,
+    )  # fmt: skip
+    lam, sigma = np.linspace(*LAM_RANGE, 601), np.linspace(*SIGMA_RANGE, 501)
+    assert not stable(bicycle, 0.0, sigma, "unrefined").any()
+    assert not stable(bicycle, lam, 0.0, "unrefined").any()
+    near = nearest_stable(bicycle, 0.0, 0.0, model="unrefined")
+    assert (near["sigma_min"], near["lam_min"], near["lam_max"]) == (None, None, None)
+    assert near["growth_rate"] > 0
+
+
+def test_only_larger_trails_are_searched():
+    """The benchmark bicycle at λ = 0.165 is stable around σ = 0.15, but no longer at 0.35."""
+    assert stable(MEIJAARD, 0.165, 0.15)
+    assert not stable(MEIJAARD, 0.165, 0.35)
+    assert nearest_stable(MEIJAARD, 0.165, 0.35)["sigma_min"] is None
+
+
+def test_beyond_the_searched_trails():
+    assert not stable(MEIJAARD, 0.0, 0.6)
+    assert nearest_stable(MEIJAARD, 0.0, 0.6)["sigma_min"] is None
+
+
+@pytest.mark.parametrize("lam", [0.0, 0.1, 0.15])
+@pytest.mark.parametrize(
+    "bicycle", [DIKAREV, DIKAREV.with_delta(1.0), MEIJAARD], ids=["1981", "damped", "2007"]
+)
+def test_the_speed_of_the_smallest_growth_rate(bicycle, lam):
+    near = nearest_stable(bicycle, lam, 0.02)
+    table = characteristic_table(bicycle, lam, 0.02)
+    dense = growth_rate(table, np.linspace(0, V_MAX, 100_001))
+    assert near["growth_rate"] == pytest.approx(float(growth_rate(table, near["V"])), rel=1e-12)
+    assert near["growth_rate"] <= dense.min() + 1e-12
+    assert near["growth_rate"] > 0
+    assert 0 <= near["V"] <= V_MAX
+
+
+def test_the_model_counts():
+    refined, plain = (nearest_stable(DIKAREV, 0.1, 0.08, model=model) for model in ("refined", "unrefined"))
+    assert refined["sigma_min"] != plain["sigma_min"]
+    if plain["sigma_min"] is not None:
+        assert stable(DIKAREV, 0.1, plain["sigma_min"], "unrefined")
