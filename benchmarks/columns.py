@@ -18,7 +18,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials
 from bikestab.scan.sheets import Atlas, Roots, most_roots
-from bikestab.speeds import critical, intervals_between, stable_intervals
+from bikestab.speeds import critical, intervals_between, intervals_of
 
 TILE = (64, 128)  # λ and σ, as a scan has them
 SAMPLE = 200  # columns for numpy.roots
@@ -106,9 +106,7 @@ def run(quick: bool) -> Report:
                 measure([peer], rounds=1 if quick else 5)
             these = {
                 "critical": Task("critical", lambda parts=parts: [critical(t) for _, t in parts], number),
-                "stable_intervals": Task(
-                    "stable_intervals", lambda whole=whole: stable_intervals(whole), number
-                ),
+                "intervals_of": Task("intervals_of", lambda whole=whole: intervals_of(whole), number),
                 "boundary": Task("boundary", lambda parts=parts: boundary(parts), number),
             }
             measure(these.values(), rounds=1 if quick else 10_000_000 // size // 20 + 2)

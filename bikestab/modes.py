@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bikestab.errors import InputError
 from bikestab.model import Floats
-from bikestab.spectrum import eigenvalues
+from bikestab.spectrum import eigenvalues_of
 
 BRANCHES = ("weave", "weave", "capsize", "castering")  # rows of Modes, each called after its own name
 NAMES = ("weave", "capsize", "castering", "real pair", "real", "pair 2")
@@ -65,7 +65,7 @@ class _Stretch(NamedTuple):
 def follow(table: Floats, V: ArrayLike) -> Modes:
     """The eigenvalues of one table (5, 4) at speeds V ≥ 0 [m/s], shape (n,), in any order.
 
-    Equal to ``spectrum.eigenvalues`` up to their order. Raises InputError for a negative speed and
+    Equal to ``spectrum.eigenvalues_of`` up to their order. Raises InputError for a negative speed and
     where p4 = 0, since an eigenvalue is then infinite.
     """
     table = np.asarray(table, dtype=float)
@@ -77,7 +77,7 @@ def follow(table: Floats, V: ArrayLike) -> Modes:
     speeds, stretches, meeting = _stretches(table.tobytes())
     rows = _rows(table, speeds, stretches)
 
-    values = eigenvalues(table[..., np.newaxis], V)
+    values = eigenvalues_of(table[..., np.newaxis], V)
     where = np.searchsorted(speeds, V)
     out, names = np.empty_like(values), np.empty(values.shape, dtype="<U9")
     for i, stretch in enumerate(stretches):
@@ -176,7 +176,7 @@ def _rows(table: Floats, speeds: list[float], stretches: list[_Stretch]) -> list
     # far up, capsize falls with 1/V and castering grows with V
     V = np.array([0.5 * (low + speeds[i]) if i < last else 1e3 * max(low, 1.0)])
     real, tilt, slots = stretches[i]
-    s = _in_slots(eigenvalues(table[..., np.newaxis], V), real, tilt)[:, 0]
+    s = _in_slots(eigenvalues_of(table[..., np.newaxis], V), real, tilt)[:, 0]
     pairs, others = list(slots[: 4 - real]), sorted(range(4 - real, 4), key=lambda k: abs(s[k]))
     if real == 2:
         return [*pairs, *(slots[k] for k in others)]

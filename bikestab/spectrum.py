@@ -30,7 +30,7 @@ class Factors(NamedTuple):
     t: Floats
 
 
-def growth_rate(table: Floats, V: ArrayLike) -> Floats:
+def growth_rate_of(table: Floats, V: ArrayLike) -> Floats:
     """The largest real part of the eigenvalues [s⁻¹] at the speeds V [m/s].
 
     ``table`` has shape (5, 4, *shape) and V broadcasts against ``shape``. inf where p4 = 0, since
@@ -43,7 +43,7 @@ def growth_rate(table: Floats, V: ArrayLike) -> Floats:
     return np.where(np.isnan(growth), np.inf, growth)
 
 
-def eigenvalues(table: Floats, V: ArrayLike) -> NDArray[np.complex128]:
+def eigenvalues_of(table: Floats, V: ArrayLike) -> NDArray[np.complex128]:
     """The four eigenvalues [s⁻¹] at the speeds V [m/s], in no particular order; shape (4, *shape)."""
     p, q, r, t = quadratic_factors(table, V)
     with np.errstate(all="ignore"):

@@ -69,7 +69,7 @@ def critical_speeds(table: Floats) -> dict[str, Floats]:
     return critical(table).speeds
 
 
-def stable_intervals(table: Floats) -> Intervals:
+def intervals_of(table: Floats) -> Intervals:
     """Every interval of stable speeds of a table (5, 4, *shape), exact to rounding.
 
     An end is ``weave`` (hurwitz3 = 0), ``capsize`` (p0 = 0), ``rest`` (V = 0) or ``unbounded``.
@@ -88,7 +88,7 @@ def stable_intervals(table: Floats) -> Intervals:
 
 
 def intervals_between(table: Floats, critical: Critical) -> Intervals:
-    """``stable_intervals`` of a table (5, 4, cell) whose critical speeds are known."""
+    """The stable intervals of a table (5, 4, cell) whose critical speeds are known."""
     capsize, weave = critical.speeds["p0"], critical.speeds["hurwitz3"]
     n = table.shape[-1]
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from bikestab import model as model_module
 from bikestab.bicycle import Bicycle
 from bikestab.model import MODELS, characteristic_table, coefficients
-from bikestab.speeds import CAPSIZE, UNBOUNDED, stable_intervals
+from bikestab.speeds import CAPSIZE, UNBOUNDED, intervals_of
 from tests import theory_page as page
 from tests.references import derive_equations as derived
 from tests.strategies import lams, machines, sigmas
@@ -235,7 +235,7 @@ def test_condition_for_no_upper_limit(preset, model, damping):
     """Section 9, at every one of 121 × 121 designs; damping has no part in it."""
     bicycle = Bicycle.preset(preset).with_delta(damping)
     lam, sigma = np.linspace(-0.2, 0.8, 121)[:, np.newaxis], np.linspace(-0.1, 0.5, 121)
-    found = stable_intervals(characteristic_table(bicycle, lam, sigma, model=model))
+    found = intervals_of(characteristic_table(bicycle, lam, sigma, model=model))
     n = coefficients(bicycle, lam, sigma, model=model)
     p4, e, f = n.a0 * n.b0 - n.a2 * n.b4, n.a5 * n.b5, n.a5 * n.b6 - n.a1 * n.b2
     k, q = n.a0 * n.b1 + n.a2 * n.b5 - n.a3 * n.b4, n.a0 * n.b2 + n.a3 * n.b5 - n.a5 * n.b4
@@ -248,7 +248,7 @@ def test_capsize_speed_in_closed_form():
     """Section 8, refined model: c g S (S − h sin λ) / …, to the conditioning of its differences."""
     b = Bicycle.preset("meijaard2007").with_delta(0.5)
     lam, sigma = np.linspace(0, 0.8, 41)[:, np.newaxis], np.linspace(0, 0.3, 41)
-    found = stable_intervals(characteristic_table(b, lam, sigma))
+    found = intervals_of(characteristic_table(b, lam, sigma))
     l, h = b.m1 * b.l1 + b.m2 * b.l2, b.m1 * b.h1 + b.m2 * b.h2  # noqa: E741  # the paper's letters
     K1, K2 = b.C1 / b.R1, b.C2 / b.R2
     c1 = sigma * b.c * np.cos(lam)

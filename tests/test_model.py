@@ -12,7 +12,7 @@ from mpmath import mp
 from bikestab.bicycle import Bicycle
 from bikestab.machines import Machines
 from bikestab.model import MODELS, NOISE, canonical_matrices, characteristic_table, coefficients
-from bikestab.speeds import KINDS, stable_intervals
+from bikestab.speeds import KINDS, intervals_of
 from tests.references import generate_speeds as reference
 from tests.strategies import lams, machines, meijaard_machines, paper_machines, sigmas
 
@@ -103,7 +103,7 @@ def test_exact_zero_of_the_two_mass_skate():
     bicycle = Bicycle.from_mapping(TWO_MASS_SKATE)
     table = characteristic_table(bicycle, bicycle.lam, bicycle.sigma)
     assert table[0, 2] == 0
-    found = stable_intervals(table)
+    found = intervals_of(table)
     assert found.V1.tolist() == pytest.approx([2.841], abs=5e-4)
     assert found.V2.tolist() == [np.inf]
     assert (KINDS[found.lower[0]], KINDS[found.upper[0]]) == ("weave", "unbounded")

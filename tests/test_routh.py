@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, coefficients_at, condition_polynomials, conditions, stable, violated
-from bikestab.speeds import stable_intervals
+from bikestab.speeds import intervals_of
 from tests.strategies import lams, machines, meijaard_machines, sigmas, speeds
 
 # LAPACK's eigenvalues belong to a matrix wrong by some ε ρ (ρ the largest eigenvalue). A simple one so
@@ -107,7 +107,7 @@ def test_condition_polynomials_of_exact_cancellation(a2, b2, k):
     table = np.zeros((5, 4))
     table[4, 0], table[3, 1], table[2, 0], table[1, 1], table[0, 0] = 1, k, a2 + b2, a2 * k, a2 * b2
     assert condition_polynomials(table)["hurwitz3"].tolist() == [0] * 10
-    assert stable_intervals(table).number == 0
+    assert intervals_of(table).number == 0
 
 
 @pytest.mark.parametrize("V", [2.5, np.array([0.5, 2.5]), np.ones((3, 1, 1))])

@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import coefficients_at
-from bikestab.spectrum import eigenvalues, growth_rate, quadratic_factors
+from bikestab.spectrum import eigenvalues_of, growth_rate_of, quadratic_factors
 from tests.references.generate_speeds import roots
 from tests.strategies import lams, machines, sigmas, speeds
 
@@ -73,7 +73,7 @@ def backward_error(p, s):
 
 def check(p):
     """Everything that is promised of one polynomial."""
-    growth, s = float(growth_rate(table_of(p), 0.0)), eigenvalues(table_of(p), 0.0)
+    growth, s = float(growth_rate_of(table_of(p), 0.0)), eigenvalues_of(table_of(p), 0.0)
     expected, tolerance = exact_growth(p)
     assert abs(growth - expected) <= tolerance
     assert backward_error(p, s) <= BACKWARD
@@ -150,7 +150,7 @@ def test_random_machines(machine, lam, sigma, some):
     """To 1e-9 s⁻¹, save where eigenvalues so nearly meet that rounding the coefficients moves them more."""
     table = characteristic_table(Bicycle.from_mapping(machine), lam, sigma)
     V = np.array([*some, 0.0, 1e-3, 1e3])
-    got, p = growth_rate(table[..., np.newaxis], V), np.array(coefficients_at(table[..., np.newaxis], V))
+    got, p = growth_rate_of(table[..., np.newaxis], V), np.array(coefficients_at(table[..., np.newaxis], V))
     for growth, coefficients in zip(got, p.T, strict=True):
         expected, tolerance = exact_growth(coefficients)
         assert abs(growth - expected) <= max(1e-9, tolerance)
@@ -160,14 +160,14 @@ def test_random_machines(machine, lam, sigma, some):
 def test_presets_to_1e_9_per_second(preset):
     table = characteristic_table(Bicycle.preset(preset), 0.3, 0.1)[..., np.newaxis]
     V = np.linspace(0, 50, 41)
-    s, p = eigenvalues(table, V), np.array(coefficients_at(table, V))
+    s, p = eigenvalues_of(table, V), np.array(coefficients_at(table, V))
     for i in range(len(V)):
         with mp.workdps(40):
             exact = [complex(x) for x in roots([mpf(x) for x in p[:, i]])]
         distance = np.abs(s[:, i, np.newaxis] - exact)
         assert distance.min(axis=0).max() < 1e-9
         assert distance.min(axis=1).max() < 1e-9
-        assert abs(growth_rate(table, V)[i] - max(x.real for x in exact)) < 1e-9
+        assert abs(growth_rate_of(table, V)[i] - max(x.real for x in exact)) < 1e-9
 
 
 @pytest.mark.parametrize("k", range(3, 17))
@@ -178,21 +178,21 @@ def test_coalescence(side, k):
     table, V = characteristic_table(own, own.lam, own.sigma), COALESCENCE + side * 10.0**-k
     p = np.array(coefficients_at(table, V))
     expected, tolerance = exact_growth(p)
-    assert abs(growth_rate(table, V) - expected) <= tolerance
+    assert abs(growth_rate_of(table, V) - expected) <= tolerance
     if k <= 7:
-        assert abs(growth_rate(table, V) - expected) < 1e-9
+        assert abs(growth_rate_of(table, V) - expected) < 1e-9
     assert tolerance < 1e-5  # the bound says something: √(128 ε) times the largest eigenvalue
 
 
 def test_leading_coefficient_zero():
     """An eigenvalue is infinite then; the neighbours are not affected."""
     p = np.array([[1, 2, 3, 4, 0], [0, 0, 0, 0, 0], [2, 0, 3, 0, 1]], float).T
-    assert growth_rate(table_of(p), 0.0).tolist() == [np.inf, np.inf, 0.0]
+    assert growth_rate_of(table_of(p), 0.0).tolist() == [np.inf, np.inf, 0.0]
 
 
 def test_eigenvalue_zero_is_exact():
     """p0 = 0 and the rest to the left: the growth rate is zero, not its rounding."""
-    assert growth_rate(table_of(coefficients_of(0, -1, -2, -3)), 0.0) == 0
+    assert growth_rate_of(table_of(coefficients_of(0, -1, -2, -3)), 0.0) == 0
 
 
 @settings(deadline=None, max_examples=50, derandomize=True)
@@ -202,7 +202,7 @@ def test_factors_multiply_to_the_polynomial(machine, lam, sigma):
     V = np.linspace(0, 50, 26)
     p0, p1, p2, p3, p4 = coefficients_at(table, V)
     p, q, r, t = quadratic_factors(table, V)
-    size = np.abs(eigenvalues(table, V)).max(axis=0)
+    size = np.abs(eigenvalues_of(table, V)).max(axis=0)
     for k, got, expected in ((3, p + r, p3), (2, q + t + p * r, p2), (1, p * t + q * r, p1), (0, q * t, p0)):
         assert np.all(np.abs(got - expected / p4) <= BACKWARD * size ** (4 - k))
 
@@ -211,14 +211,14 @@ def test_shapes_broadcast_and_vectorised_equals_scalar():
     bicycle = Bicycle.preset("dikarev1981")
     lam, sigma, V = np.linspace(0, 0.6, 3)[:, np.newaxis], np.linspace(0, 0.3, 4), np.linspace(0, 9, 5)
     table = characteristic_table(bicycle, lam, sigma)
-    growth, s = growth_rate(table[..., np.newaxis], V), eigenvalues(table[..., np.newaxis], V)
+    growth, s = growth_rate_of(table[..., np.newaxis], V), eigenvalues_of(table[..., np.newaxis], V)
     assert growth.shape == (3, 4, 5)
     assert s.shape == (4, 3, 4, 5)
     for i, j, k in np.ndindex(3, 4, 5):
         one = characteristic_table(bicycle, lam[i, 0], sigma[j])
-        assert np.shape(growth_rate(one, V[k])) == ()
-        assert growth_rate(one, V[k]) == pytest.approx(growth[i, j, k], rel=0, abs=1e-12)
+        assert np.shape(growth_rate_of(one, V[k])) == ()
+        assert growth_rate_of(one, V[k]) == pytest.approx(growth[i, j, k], rel=0, abs=1e-12)
 
 
 def test_no_points():
-    assert growth_rate(np.zeros((5, 4, 0)), 1.0).shape == (0,)
+    assert growth_rate_of(np.zeros((5, 4, 0)), 1.0).shape == (0,)

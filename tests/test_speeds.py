@@ -11,7 +11,7 @@ from mpmath import mp, mpf
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import coefficients_at, condition_polynomials
-from bikestab.speeds import CAPSIZE, KINDS, NONE, REST, UNBOUNDED, WEAVE, critical_speeds, stable_intervals
+from bikestab.speeds import CAPSIZE, KINDS, NONE, REST, UNBOUNDED, WEAVE, critical_speeds, intervals_of
 from tests.references import generate_speeds as reference
 from tests.strategies import lams, machines, sigmas
 
@@ -25,7 +25,7 @@ OPERATIONS = 32
 
 def intervals(bicycle, lam, sigma, model="refined"):
     """The stable intervals of one design as tuples V1, kind, V2, kind."""
-    found = stable_intervals(characteristic_table(bicycle, lam, sigma, model=model))
+    found = intervals_of(characteristic_table(bicycle, lam, sigma, model=model))
     n = int(found.number)
     return [
         (float(found.V1[i]), KINDS[found.lower[i]], float(found.V2[i]), KINDS[found.upper[i]])
@@ -41,9 +41,9 @@ def table_of(rows, shape=()):
     return table
 
 
-def intervals_of(table):
+def tuples_of(table):
     """The stable intervals of a table of one cell as tuples V1, V2, lower, upper."""
-    found = stable_intervals(table)
+    found = intervals_of(table)
     return list(zip(*(values.tolist() for values in found), strict=True))
 
 
@@ -115,7 +115,7 @@ def test_stable_inside_only(delta, machine, lam, sigma):
     s = np.linalg.eigvals(companion)
     # ε ρ for a simple eigenvalue; the square root covers a sweep that meets a double one
     clear = np.abs(s.real).min(axis=1) > 1e-7 * np.abs(s).max(axis=1)
-    found = stable_intervals(table)
+    found = intervals_of(table)
     inside = np.any((V[:, np.newaxis] > found.V1) & (V[:, np.newaxis] < found.V2), axis=1)
     assert np.array_equal(inside[clear], (s.real.max(axis=1) < 0)[clear])
 
@@ -132,7 +132,7 @@ def test_interval_of_rounding_width():
     """hurwitz3/V² = 2 V² − 2 − w and p0 = 1 + w − V² leave 1 + w/4 … 1 + w/2 with w = 1e-12."""
     w = 1e-12
     narrow = table_of({(4, 0): 1, (3, 1): 1, (2, 2): 1, (1, 1): 1, (0, 0): 1 + w, (0, 2): -1})
-    ((V1, V2, lower, upper),) = intervals_of(narrow)
+    ((V1, V2, lower, upper),) = tuples_of(narrow)
     assert (lower, upper) == (WEAVE, CAPSIZE)
     assert abs(V1 - 1 - w / 4) <= 2 * EPS
     assert abs(V2 - 1 - w / 2) <= 2 * EPS
@@ -140,14 +140,14 @@ def test_interval_of_rounding_width():
 
 def test_unbounded_from_rest():
     """(s + 1)⁴ at every speed is stable from rest on."""
-    found = stable_intervals(table_of({(4, 0): 1, (3, 0): 4, (2, 0): 6, (1, 0): 4, (0, 0): 1}))
+    found = intervals_of(table_of({(4, 0): 1, (3, 0): 4, (2, 0): 6, (1, 0): 4, (0, 0): 1}))
     assert found.V1.tolist() == [0]
     assert found.V2.tolist() == [np.inf]
     assert (found.lower[0], found.upper[0]) == (REST, UNBOUNDED)
 
 
 def test_none():
-    found = stable_intervals(table_of({(4, 0): 1, (2, 0): -1}))
+    found = intervals_of(table_of({(4, 0): 1, (2, 0): -1}))
     assert found.number == 0
     assert np.isnan([found.V1[0], found.V2[0]]).all()
     assert (found.lower.tolist(), found.upper.tolist()) == ([NONE], [NONE])
@@ -158,20 +158,20 @@ def test_one_negative_coefficient_is_unstable(k):
     """(s + 1)⁴ with p_k < 0 at every speed; for k = 4 hurwitz3 and p0 stay positive."""
     p = np.array([1, 4, 6, 4, 1.0])
     p[k] *= -1
-    assert stable_intervals(table_of(dict(zip([(j, 0) for j in range(5)], p, strict=True)))).number == 0
+    assert intervals_of(table_of(dict(zip([(j, 0) for j in range(5)], p, strict=True)))).number == 0
 
 
 def test_touching_weave_is_no_edge():
     """hurwitz3/V² = (V² − 1)² touches zero at V = 1 without a change of sign; p0 = 3 V² − 1."""
     touching = table_of({(4, 0): 1, (3, 1): 1, (2, 2): 2, (2, 0): 1, (1, 3): 1, (0, 2): 3, (0, 0): -1})
-    assert intervals_of(touching) == [(pytest.approx(1 / math.sqrt(3)), np.inf, CAPSIZE, UNBOUNDED)]
+    assert tuples_of(touching) == [(pytest.approx(1 / math.sqrt(3)), np.inf, CAPSIZE, UNBOUNDED)]
 
 
 def test_root_of_hurwitz3_that_is_no_edge():
     """At (0.05, 0.15) Δ3 is zero at 1.58 m/s too, but p0 < 0 on both sides of it."""
     table = characteristic_table(Bicycle.preset("dikarev1981"), 0.05, 0.15)
     assert critical_speeds(table)["hurwitz3"] == pytest.approx([1.5796, 4.8065], abs=5e-5)
-    assert [V1 for V1, *_ in intervals_of(table)] == pytest.approx([4.8065], abs=5e-5)
+    assert [V1 for V1, *_ in tuples_of(table)] == pytest.approx([4.8065], abs=5e-5)
 
 
 @settings(deadline=None, max_examples=60, derandomize=True)
@@ -193,11 +193,11 @@ def test_critical_speeds_are_sign_changes(machine, lam, sigma):
 def test_shapes_and_vectorised_equals_scalar():
     bicycle = Bicycle.preset("dikarev1981")
     lam, sigma = np.array([0.015, 0.04834835, 0.1, 0.2])[:, np.newaxis], np.array([0.08, 0.1475, 0.15])
-    found = stable_intervals(characteristic_table(bicycle, lam, sigma))
+    found = intervals_of(characteristic_table(bicycle, lam, sigma))
     assert found.V1.shape == found.lower.shape == (4, 3, 2)
     assert found.number.shape == (4, 3)
     for i, j in np.ndindex(4, 3):
-        one = stable_intervals(characteristic_table(bicycle, lam[i, 0], sigma[j]))
+        one = intervals_of(characteristic_table(bicycle, lam[i, 0], sigma[j]))
         n = int(one.number)
         assert found.number[i, j] == n
         for many, single in zip(found, one, strict=True):
@@ -211,13 +211,13 @@ def test_more_cells_than_are_worked_on_at_a_time():
     """Cells beyond the first chunk, of different numbers of intervals."""
     bicycle = Bicycle.preset("dikarev1981")
     lam = np.tile([0.2, 0.1, 0.04834835], 12000)
-    found = stable_intervals(characteristic_table(bicycle, lam, 0.15))
-    few = stable_intervals(characteristic_table(bicycle, lam[:3], 0.15))
+    found = intervals_of(characteristic_table(bicycle, lam, 0.15))
+    few = intervals_of(characteristic_table(bicycle, lam[:3], 0.15))
     for many, once in zip(found, few, strict=True):
         assert np.array_equal(many, np.tile(once, (12000, 1)), equal_nan=many.dtype.kind == "f")
 
 
 def test_no_cells():
-    found = stable_intervals(np.zeros((5, 4, 0)))
+    found = intervals_of(np.zeros((5, 4, 0)))
     assert found.V1.shape == (0, 1)
     assert found.number.shape == (0,)

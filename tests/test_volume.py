@@ -13,8 +13,8 @@ from bikestab.config.scanconfig import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scan.run import run_scan
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import KINDS, stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import KINDS, intervals_of
 from bikestab.volume import Volume
 from tests.volumes import EQUAL, config_of
 
@@ -124,7 +124,7 @@ def test_fields_are_the_conditions_and_the_growth_rate(equal):
         mask = file["violated"][()]
         np.testing.assert_array_equal(mask, violated(values))
         np.testing.assert_array_equal(file["stable"][()], mask == 0)
-        growth = growth_rate(*points_of(config)).astype("f4")
+        growth = growth_rate_of(*points_of(config)).astype("f4")
         np.testing.assert_array_equal(file["growth_rate"][()], growth)
         assert file.attrs["stable_points"] == np.count_nonzero(mask == 0) > 0
         assert np.array_equal(growth < 0, mask == 0)
@@ -142,7 +142,7 @@ def test_axes_are_in_the_order_lam_sigma_V(equal):
 
 def test_intervals_are_the_exact_ones(equal, own):
     for path, config in (equal, own):
-        expected = stable_intervals(columns_of(config))
+        expected = intervals_of(columns_of(config))
         with h5py.File(path) as file:
             for name, values in expected._asdict().items():
                 np.testing.assert_array_equal(file[name][()], values)

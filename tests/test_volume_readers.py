@@ -13,7 +13,7 @@ from bikestab.errors import InputError
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS
 from bikestab.scan.run import run_scan
-from bikestab.spectrum import growth_rate
+from bikestab.spectrum import growth_rate_of
 from bikestab.volume import Volume, uniform
 from tests.volumes import EQUAL, config_of
 
@@ -34,7 +34,7 @@ def test_xarray(equal, own, engine):
         assert data.attrs["config_sha256"] == config.sha256
         assert data.stable.dtype == np.uint8
         at = data.sel(lam=0.2, sigma=0.075, V=5, method="nearest")
-        expected = growth_rate(characteristic_table(config.machine, 0.2, 0.075), 5.0)
+        expected = growth_rate_of(characteristic_table(config.machine, 0.2, 0.075), 5.0)
         assert float(at.growth_rate) == pytest.approx(float(expected), rel=1e-6)
     with xarray.open_dataset(path, engine=engine, group="boundary") as data:
         assert data.p0.dims == ("lam", "sigma", "root")

@@ -12,8 +12,8 @@ from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
 from bikestab.limits import check_tilt, check_trail
 from bikestab.model import Floats, Model, characteristic_table
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import Intervals, stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import Intervals, intervals_of
 
 Range = tuple[float, float]
 LAM_RANGE, SIGMA_RANGE, V_MAX = (0.0, 0.6), (0.0, 0.3), 30.0  # rad, 1, m/s
@@ -71,7 +71,7 @@ class Counted(NamedTuple):
 
 def counted(wanted: Wanted, table: Floats) -> Counted:
     """The stable intervals of tables (5, 4, *shape); arrays have shape (*shape, interval)."""
-    found = stable_intervals(table)
+    found = intervals_of(table)
     counts = wanted.V_max > found.V1
     if wanted.stable:
         counts &= (wanted.stable[0] >= found.V1) & (wanted.stable[1] <= found.V2)
@@ -158,7 +158,7 @@ def extreme(
         one = not np.any(b > a)
         for _ in range(1 if one else rounds):
             V = a + (b - a) * (share[:1] if one else share)
-            rate = growth_rate(table[..., part], V)
+            rate = growth_rate_of(table[..., part], V)
             best = np.argmax(rate, axis=0) if worst else np.argmin(rate, axis=0)
             column = np.arange(V.shape[1])
             best_V[part], best_rate[part] = V[best, column], rate[best, column]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.region.skeleton import Line, crossings
-from bikestab.speeds import Intervals, stable_intervals
+from bikestab.speeds import Intervals, intervals_of
 
 Range = tuple[float, float]
 LAM: Range = (0.0, 0.3)  # rad; section 2 of the paper
@@ -80,7 +80,7 @@ def designs(
 
 
 def _judged(table: Floats) -> tuple[Any, ...]:
-    found = stable_intervals(table)
+    found = intervals_of(table)
     widest = np.where(found.upper > 0, found.V2 - found.V1, 0).max(axis=-1)
     unbounded = np.isinf(found.V2).any(axis=-1)
     return found.number, unbounded, stable_at_high_speed(table), widths(found).sum(axis=-1), widest
@@ -112,7 +112,7 @@ def exact_shares(
     """As ``Map.shares``, from the exact ends of each kind along λ on lines of constant σ."""
     line = Line(bicycle, model, None, middles(sigma, lines))
     cuts = crossings(line, *lam)
-    found = stable_intervals(line.table(0.5 * (cuts[:, 1:] + cuts[:, :-1])))
+    found = intervals_of(line.table(0.5 * (cuts[:, 1:] + cuts[:, :-1])))
     length = np.diff(cuts, axis=1) / (lam[1] - lam[0])
     kinds = _kinds(found.number, np.asarray(np.isinf(found.V2).any(axis=-1)))
     return {name: float((is_ * length).sum(axis=1).mean()) for name, is_ in kinds.items()}
@@ -130,7 +130,7 @@ def unbounded_ranges(
     """The ranges of λ [rad] with an unbounded interval at one σ, right to rounding."""
     line = Line(bicycle, model, None, [sigma])
     cuts = crossings(line, *lam)[0]
-    found = stable_intervals(line.table(0.5 * (cuts[1:] + cuts[:-1])[np.newaxis]))
+    found = intervals_of(line.table(0.5 * (cuts[1:] + cuts[:-1])[np.newaxis]))
     has = np.asarray(np.isinf(found.V2).any(axis=-1))[0] & (np.diff(cuts) > 0)
     ranges: list[Range] = []
     for i in np.flatnonzero(has):

@@ -12,7 +12,7 @@ from bikestab.paper1981 import box as paper
 from bikestab.paper1981 import claims
 from bikestab.paper1981.box import LAM, SIGMA
 from bikestab.region.skeleton import sigma_min
-from bikestab.speeds import CAPSIZE, WEAVE, stable_intervals
+from bikestab.speeds import CAPSIZE, WEAVE, intervals_of
 
 Numbers = dict[str, Any]
 DESIGNS = ((0.20, 0.08), (0.30, 0.10), (0.05, 0.15), (0.12, 0.12))  # (λ, σ), stable without damping
@@ -96,7 +96,7 @@ class _Region:
 
     def __init__(self, bicycle: Bicycle, lam: Floats, sigma: Floats) -> None:
         self.table = characteristic_table(bicycle, lam, sigma)
-        found = stable_intervals(self.table)
+        found = intervals_of(self.table)
         self.volume = (
             float(paper.widths(found).sum(axis=-1).mean()) * (LAM[1] - LAM[0]) * (SIGMA[1] - SIGMA[0])
         )
@@ -107,7 +107,7 @@ class _Region:
 
 
 def _ends(bicycle: Bicycle, lam: float, sigma: float) -> Numbers:
-    found = stable_intervals(characteristic_table(bicycle, lam, sigma))
+    found = intervals_of(characteristic_table(bicycle, lam, sigma))
     if not found.upper[0]:
         return {"V1": None, "V2": None, "capsize": False}
     V1, V2 = float(found.V1[0]), float(found.V2[0])

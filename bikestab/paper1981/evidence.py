@@ -19,7 +19,7 @@ from bikestab.paper1981.box import LAM, SIGMA, WIDER, Map, Size, V
 from bikestab.paper1981.machines import random_machines
 from bikestab.region.curves import trace
 from bikestab.region.skeleton import lam_min, sigma_min, stable_ranges
-from bikestab.speeds import KINDS, stable_intervals
+from bikestab.speeds import KINDS, intervals_of
 
 Numbers = dict[str, Any]
 COUNTEREXAMPLES = ((0.05, 0.15), (0.08, 0.13), (0.11, 0.145))  # (λ, σ) between the two curves at infinity
@@ -37,7 +37,7 @@ _TIE = 1e-9  # m/s: widths closer than that are equal
 
 def intervals(bicycle: Bicycle, lam: float, sigma: float) -> list[Numbers]:
     """The stable intervals of one design; an unbounded V2 is None."""
-    found = stable_intervals(characteristic_table(bicycle, lam, sigma))
+    found = intervals_of(characteristic_table(bicycle, lam, sigma))
     return [
         {"V1": V1, "V2": V2 if math.isfinite(V2) else None, "lower": KINDS[lower], "upper": KINDS[upper]}
         for V1, V2, lower, upper in zip(*(values.tolist() for values in found), strict=True)
@@ -179,7 +179,7 @@ def widths_along_lines(bicycle: Bicycle, steps: int) -> Numbers:
 
 
 def _widths(bicycle: Bicycle, lam: Any, sigma: Any) -> Floats:
-    found = stable_intervals(characteristic_table(bicycle, lam, sigma))
+    found = intervals_of(characteristic_table(bicycle, lam, sigma))
     return paper.widths(found).max(axis=-1)
 
 

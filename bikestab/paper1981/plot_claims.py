@@ -19,7 +19,7 @@ from bikestab.paper1981.box import LAM, SIGMA, V
 from bikestab.plot.axes import HALO, LABELS, label_axes
 from bikestab.plot.designs import CURVES
 from bikestab.region.curves import trace
-from bikestab.speeds import stable_intervals
+from bikestab.speeds import intervals_of
 
 _KINDS = {"no stable speed": "#ffffff", "bounded interval": "#bcd7ea", "no upper limit": "#e69f00"}
 _TALLER = 1.6  # the picture's box over the paper's, along σ
@@ -91,7 +91,7 @@ def draw_widths(bicycle: Bicycle, sigmas: tuple[float, ...], lams: tuple[float, 
 def _widths(ax: Axes, bicycle: Bicycle, x: Any, values: tuple[float, ...], symbol: str, at: Any) -> None:
     colours = colormaps["viridis"](np.linspace(0, 0.85, len(values)))
     for value, colour in zip(values, colours, strict=True):
-        width = paper.widths(stable_intervals(characteristic_table(bicycle, *at(value)))).max(axis=-1)
+        width = paper.widths(intervals_of(characteristic_table(bicycle, *at(value)))).max(axis=-1)
         ax.plot(x, np.where(width > 0, width, np.nan), color=colour, lw=1.7, label=f"{symbol} = {value:.2f}")
     ax.legend(fontsize=8.5, ncols=2, loc="upper right" if symbol == "σ" else "upper left")
 

@@ -16,7 +16,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.modes import Modes, follow
 from bikestab.plot.axes import HALO, head_angle, remarks
-from bikestab.speeds import KINDS, stable_intervals
+from bikestab.speeds import KINDS, intervals_of
 
 # dark blue, red and yellow (Tol 2021, high contrast) differ for colour-blind eyes and in greyscale
 STYLES: dict[str, tuple[str, float]] = {
@@ -132,7 +132,7 @@ def _lines(modes: Modes) -> list[_Line]:
 def _stable_bands(ax: Axes, table: Floats) -> tuple[list[float], int]:
     """Shade the stable speeds; write their ends above the frame. The ends, and how many rows of text."""
     start, stop = ax.get_xlim()
-    found = stable_intervals(table)
+    found = intervals_of(table)
     edges: list[float] = []
     notes: list[tuple[float, str, str]] = []  # place from 0 to 1, preferred side, text
     for V1, V2, lower, upper in zip(*(values[: found.number] for values in found), strict=True):

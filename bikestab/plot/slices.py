@@ -20,7 +20,7 @@ from bikestab.model import Floats
 from bikestab.plot.axes import head_angle, label_axes, remarks
 from bikestab.region.section import IN_PLANE, Section, edge_curves
 from bikestab.routh import conditions, violated
-from bikestab.spectrum import growth_rate
+from bikestab.spectrum import growth_rate_of
 from bikestab.volume import Volume
 
 SYMBOLS = {"lam": "λ", "sigma": "σ", "V": "V"}
@@ -116,7 +116,7 @@ def _growth_rate(volume: Volume, section: Section, x: Floats, y: Floats, near: i
     axis = volume.axis(section.fixed)
     if "growth_rate" in volume.fields and _same(axis, axis[near], section.value):
         return _stored(volume, "growth_rate", section.fixed, near)
-    return growth_rate(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
+    return growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
 
 
 def _growth(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats) -> None:

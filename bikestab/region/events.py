@@ -12,7 +12,7 @@ from bikestab.model import Floats, Model, characteristic_table
 from bikestab.region.skeleton import CurveName, Skeleton, curve_functions, reduced
 from bikestab.roots import positive_roots
 from bikestab.routh import conditions
-from bikestab.speeds import stable_intervals
+from bikestab.speeds import intervals_of
 
 
 class Box(NamedTuple):
@@ -127,7 +127,7 @@ def _event_of_inertia(box: Box, points: Floats) -> Event:
     """All motion becomes unstable where p4 changes sign."""
     along = np.gradient(points, axis=1) if points.shape[1] > 1 else np.ones_like(points)
     aside = np.array([-along[1], along[0]]) / np.maximum(np.hypot(*along), 1e-300) * 1e-7
-    number = [stable_intervals(box.table(points + sign * aside)).number for sign in (1, -1)]
+    number = [intervals_of(box.table(points + sign * aside)).number for sign in (1, -1)]
     V = np.full(points.shape[1], np.nan)
     return Event(V, (number[0] != number[1])[np.newaxis], ("weave",), np.zeros(len(V), bool))
 

@@ -19,8 +19,8 @@ from bikestab.region.curves import trace
 from bikestab.region.events import Box, event_at
 from bikestab.region.skeleton import CurveName, reduced
 from bikestab.region.triangulation import FACES, Index, Plane, halved, triangulated
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import CAPSIZE, NONE, WEAVE, critical_speeds, stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import CAPSIZE, NONE, WEAVE, critical_speeds, intervals_of
 
 _CLOSE = 1e-3  # of a speed: how far rounding may move one that is known to be a root
 # where the stable intervals of a triangle are looked for beside a corner on a curve: towards its inner
@@ -110,7 +110,7 @@ class _Ends(NamedTuple):
 
 
 def _ends(box: Box, points: Floats) -> _Ends:
-    found = stable_intervals(box.table(points))
+    found = intervals_of(box.table(points))
     low, high = box.V
     V1, V2 = np.maximum(found.V1, low), np.minimum(found.V2, high)
     inside = V1 < V2  # False for NaN
@@ -277,5 +277,5 @@ def _replace_nearest(values: Floats, on: Index, V: Floats) -> None:
 def _lowest(box: Box, points: Floats, V1: Floats, V2: Floats) -> Floats:
     """The lowest growth rate [s⁻¹] (point,) of evenly spaced speeds in an interval."""
     V = V1 + (V2 - V1) * np.linspace(0, 1, _SAMPLES)[:, np.newaxis]
-    rate = growth_rate(box.table(points)[:, :, np.newaxis], V).min(axis=0)
+    rate = growth_rate_of(box.table(points)[:, :, np.newaxis], V).min(axis=0)
     return np.minimum(rate, 0.0)  # which it is at either end

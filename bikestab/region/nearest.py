@@ -10,8 +10,8 @@ import numpy as np
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.region.skeleton import stable_ranges
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import intervals_of
 
 LAM_RANGE, SIGMA_RANGE = (0.0, 0.6), (0.0, 0.5)  # rad, 1: what is searched
 V_MAX = 50.0  # m/s, up to which the smallest growth rate is searched
@@ -47,7 +47,7 @@ def nearest_stable(bicycle: Bicycle, lam: float, sigma: float, *, model: Model =
         return characteristic_table(bicycle, values, sigma, model=model)
 
     table = characteristic_table(bicycle, lam, sigma, model=model)
-    V, growth = _slowest(lambda V: growth_rate(table, V))
+    V, growth = _slowest(lambda V: growth_rate_of(table, V))
     finite = bool(np.isfinite(growth))
     return Nearest(
         sigma_min=_inside(at_sigma, *sigmas[0]) if sigmas else None,
@@ -62,7 +62,7 @@ def _inside(table: Callable[[Floats], Floats], end: float, other: float) -> floa
     """The end of a stable range moved by rounding's share, so that it has a stable speed itself."""
     steps = np.concatenate([[0.0], 2.0 ** np.arange(-54, -34)]) * max(abs(end), 1e-3)
     values = end + np.copysign(steps, other - end)
-    some = stable_intervals(table(values)).number > 0
+    some = intervals_of(table(values)).number > 0
     return float(values[np.argmax(some)])
 
 

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import condition_polynomials, product
-from bikestab.speeds import stable_intervals
+from bikestab.speeds import intervals_of
 
 CurveName = Literal[
     "fold", "crossing", "meet", "slow meet", "capsize at infinity", "weave at infinity",
@@ -115,7 +115,7 @@ def stable_ranges(
     line = Line(bicycle, model, lam, sigma)
     cuts = crossings(line, low, high)
     found = []
-    has = stable_intervals(line.table(0.5 * (cuts[:, 1:] + cuts[:, :-1]))).number > 0
+    has = intervals_of(line.table(0.5 * (cuts[:, 1:] + cuts[:, :-1]))).number > 0
     has &= cuts[:, 1:] > cuts[:, :-1]
     for ends, good in zip(cuts, has, strict=True):
         ranges: list[tuple[float, float]] = []

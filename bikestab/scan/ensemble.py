@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bikestab.machines import Machines
 from bikestab.model import Floats, Model, characteristic_table
-from bikestab.speeds import Intervals, stable_intervals
+from bikestab.speeds import Intervals, intervals_of
 
 _PAIRS = 1 << 15  # of a machine and a (λ, σ), worked on at a time: some 20 MB
 
@@ -62,7 +62,7 @@ def _of_cells(
     step = max(_PAIRS // cells, 1)
     for start in range(0, number, step):
         part = slice(start, start + step)
-        found = stable_intervals(characteristic_table(machines.part(part), lam, sigma, model=model))
+        found = intervals_of(characteristic_table(machines.part(part), lam, sigma, model=model))
         V1[:, part], V2[:, part] = _widest(found)
         steps += _steps(found, V)
         unbounded += np.count_nonzero(np.isinf(found.V2), axis=(0, 2))

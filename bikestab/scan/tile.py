@@ -21,7 +21,7 @@ from bikestab.scan.crosscheck import AGREEMENT, Agreement, check
 from bikestab.scan.ensemble import ensemble_statistics
 from bikestab.scan.sheets import Roots, most_roots
 from bikestab.scan.signs import violated_between
-from bikestab.spectrum import growth_rate
+from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import Critical, Intervals, critical, intervals_between
 
 if TYPE_CHECKING:
@@ -162,7 +162,7 @@ def _field(name: str, table: Floats, tile: Tile, mask: NDArray[np.uint8]) -> NDA
         part = table[:, :, i : i + cells, np.newaxis]
         for k in range(0, len(tile.V), speeds):
             V = tile.V[k : k + speeds]
-            values = growth_rate(part, V) if name == "growth_rate" else condition(part, name, V)
+            values = growth_rate_of(part, V) if name == "growth_rate" else condition(part, name, V)
             out[i : i + cells, k : k + speeds] = values
     return out.reshape(tile.shape)
 

@@ -48,7 +48,7 @@ def command(configs: tuple[str, ...]) -> None:
 
 def _compare(name: str, config: ScanConfig, expected: Expectation, i: int) -> tuple[list[str], bool]:
     from bikestab.model import characteristic_table
-    from bikestab.speeds import stable_intervals
+    from bikestab.speeds import intervals_of
 
     lam = config.machine.lam if expected.lam is None else expected.lam
     sigma = config.machine.sigma if expected.sigma is None else expected.sigma
@@ -57,7 +57,7 @@ def _compare(name: str, config: ScanConfig, expected: Expectation, i: int) -> tu
             f"the bicycle {config.machine.name!r} has no own {'lam' if lam is None else 'sigma'}",
             key=("expect", i), place=name, hint="give lam and sigma in the entry",
         )  # fmt: skip
-    intervals = stable_intervals(characteristic_table(config.machine, lam, sigma, model=config.model))
+    intervals = intervals_of(characteristic_table(config.machine, lam, sigma, model=config.model))
     found = list(zip(intervals.V1, intervals.V2, strict=True))[: int(intervals.number)]
     holds = not found
     if expected.stable is None:

@@ -140,9 +140,9 @@ def _design(bicycle: Bicycle, lam: float | None, sigma: float | None) -> tuple[f
 
 def _intervals(coefficients: Any) -> list[dict[str, Any]]:
     """As in vrange --json; null is unbounded."""
-    from bikestab.speeds import KINDS, stable_intervals
+    from bikestab.speeds import KINDS, intervals_of
 
-    found = stable_intervals(coefficients)
+    found = intervals_of(coefficients)
     return [
         {
             "V1": float(V1),

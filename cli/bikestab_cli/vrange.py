@@ -97,9 +97,9 @@ def _results(
     import numpy as np
 
     from bikestab.model import characteristic_table
-    from bikestab.speeds import KINDS, stable_intervals
+    from bikestab.speeds import KINDS, intervals_of
 
-    found = stable_intervals(characteristic_table(bicycle, np.array(lams)[:, None], sigmas, model=model))
+    found = intervals_of(characteristic_table(bicycle, np.array(lams)[:, None], sigmas, model=model))
     results = []
     for (i, j), number in np.ndenumerate(found.number):
         intervals = [

@@ -14,8 +14,8 @@ from bikestab.design.best import best_designs
 from bikestab.design.criteria import Wanted
 from bikestab.errors import InputError
 from bikestab.model import canonical_matrices, characteristic_table
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import intervals_of
 
 N = 400  # grid of the issue: no design of it may beat what is found
 
@@ -65,16 +65,16 @@ def _on_grid(name):
         low, high = max(low, wanted.trail[0] / c), min(high, wanted.trail[1] / c)
     lam, sigma = np.linspace(*wanted.lam, N)[:, None], np.linspace(low, high, N)
     table = characteristic_table(wanted.bicycle, lam, sigma)
-    V1, V2, _, _ = stable_intervals(table)
+    V1, V2, _, _ = intervals_of(table)
     A, B = wanted.stable or (np.inf, 0.0)
     counts = (wanted.V_max > V1) & (V1 <= A) & (V2 >= B)
     width = np.where(counts, np.minimum(V2, wanted.V_max) - V1, 0).max(axis=-1)
     first = np.where(counts, V1, np.inf).min(axis=-1)
     if wanted.judged:
-        rates = [growth_rate(table, V) for V in np.linspace(*wanted.judged, 5)]
+        rates = [growth_rate_of(table, V) for V in np.linspace(*wanted.judged, 5)]
         growth = np.max(rates, axis=0)
     else:
-        growth = np.min([growth_rate(table, V) for V in np.linspace(1, wanted.V_max, 21)], axis=0)
+        growth = np.min([growth_rate_of(table, V) for V in np.linspace(1, wanted.V_max, 21)], axis=0)
     growth = np.where(width > 0, growth, np.inf)
     return width, first, growth
 
@@ -197,11 +197,11 @@ def test_the_lowest_V1_lies_where_the_interval_vanishes():
     assert best.widest["at"] == "jump"  # two intervals join there
     around = np.array([[-1, 1], [1, 1], [1, -1], [-1, -1], [0, 1], [0, -1], [1, 0], [-1, 0]]).T * 1e-6
     x = np.array([[best.widest["lam"]], [best.widest["sigma"]]]) + around
-    V1, V2, _, _ = stable_intervals(characteristic_table(DIKAREV, *x))
+    V1, V2, _, _ = intervals_of(characteristic_table(DIKAREV, *x))
     widths = np.where(V1 < 30, np.minimum(V2, 30) - V1, 0).max(axis=-1)
     assert widths.min() < best.widest["width"] - 0.05
     assert best.fastest_decay["at"] == "interior"
-    rate = growth_rate(characteristic_table(DIKAREV, *(x - x.mean(axis=1, keepdims=True) + np.array(
+    rate = growth_rate_of(characteristic_table(DIKAREV, *(x - x.mean(axis=1, keepdims=True) + np.array(
         [[best.fastest_decay["lam"]], [best.fastest_decay["sigma"]]]))), 5.0)  # fmt: skip
     assert rate.min() > best.fastest_decay["growth_rate"] - 1e-9
 
@@ -230,7 +230,7 @@ def test_stable_speeds_asked_for():
 def test_a_fixed_tilt():
     best = found(Wanted(MEIJAARD, lam=(0.3, 0.3), judged=(5.0, 5.0)))
     sigma = np.linspace(0, 0.3, 20001)
-    rate = growth_rate(characteristic_table(MEIJAARD, 0.3, sigma), 5.0)
+    rate = growth_rate_of(characteristic_table(MEIJAARD, 0.3, sigma), 5.0)
     assert best.fastest_decay["lam"] == 0.3
     assert best.fastest_decay["sigma"] == pytest.approx(sigma[rate.argmin()], abs=2e-5)
     assert best.fastest_decay["growth_rate"] <= rate.min()
@@ -239,7 +239,7 @@ def test_a_fixed_tilt():
 def test_a_single_design():
     best = found(Wanted(MEIJAARD, lam=(0.3, 0.3), sigma=(0.08, 0.08)))
     assert best.widest["lam"], best.widest["sigma"] == (0.3, 0.08)
-    assert best.widest["V1"] == stable_intervals(characteristic_table(MEIJAARD, 0.3, 0.08)).V1[0]
+    assert best.widest["V1"] == intervals_of(characteristic_table(MEIJAARD, 0.3, 0.08)).V1[0]
     assert len(best.pareto) == 1
 
 
@@ -267,7 +267,7 @@ def test_nothing_is_stable_as_asked():
     assert best.widest is None
     lam, sigma = np.linspace(0, 0.6, 80)[:, None], np.linspace(0, 0.3, 80)
     table = characteristic_table(DIKAREV, lam, sigma)
-    worst = np.max([growth_rate(table, V) for V in np.linspace(1, 20, 100)], axis=0)
+    worst = np.max([growth_rate_of(table, V) for V in np.linspace(1, 20, 100)], axis=0)
     assert 0 < best.closest["growth_rate"] <= worst.min()
     assert 1.0 <= best.closest["V"] <= 20.0
 
@@ -277,7 +277,7 @@ def test_a_region_that_the_grid_misses(monkeypatch):
     monkeypatch.setattr(module, "GRID", 11)
     wanted = Wanted(MEIJAARD, judged=(5.0, 5.0), stable=(4.2, 6.02))
     lam, sigma = np.linspace(0, 0.6, 11)[:, None], np.linspace(0, 0.3, 11)
-    V1, V2, _, _ = stable_intervals(characteristic_table(MEIJAARD, lam, sigma))
+    V1, V2, _, _ = intervals_of(characteristic_table(MEIJAARD, lam, sigma))
     assert not np.any((V1 <= 4.2) & (V2 >= 6.02))
     best = best_designs(wanted)
     assert best.widest["V1"] <= 4.2

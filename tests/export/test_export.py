@@ -19,7 +19,7 @@ from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import region_mesh
 from bikestab.routh import conditions
 from bikestab.scan.run import run_scan
-from bikestab.speeds import CAPSIZE, KINDS, WEAVE, stable_intervals
+from bikestab.speeds import CAPSIZE, KINDS, WEAVE, intervals_of
 from bikestab.volume import Volume
 
 pyvista = pytest.importorskip("pyvista")
@@ -168,7 +168,7 @@ def test_the_rim_is_on_a_closing_curve(case):
     shared = np.intersect1d(triangles[upper], triangles[~upper])
     assert len(shared) > 40
     lam, sigma, V = rim = (surface.points[shared] / scale).T
-    found = stable_intervals(characteristic_table(bicycle, lam, sigma))
+    found = intervals_of(characteristic_table(bicycle, lam, sigma))
     near = (np.abs(found.V1 - V[:, np.newaxis]) < 1e-4) & (np.abs(found.V2 - V[:, np.newaxis]) < 1e-4)
     assert np.where(near, found.V2 - found.V1, 0).max() < 1e-6  # rounding may leave an interval, a tiny one
     curves = [curve for curve in trace(bicycle, *box, samples=321) if curve.closes]
@@ -277,7 +277,7 @@ def test_intervals_are_those_of_every_design(volume, tmp_path):
     expected = []
     for lam in volume.axis("lam"):
         for sigma in volume.axis("sigma"):
-            found = stable_intervals(characteristic_table(bicycle, lam, sigma))
+            found = intervals_of(characteristic_table(bicycle, lam, sigma))
             expected.extend(
                 [lam, sigma, k + 1, found.V1[k], found.V2[k], KINDS[found.lower[k]], KINDS[found.upper[k]]]
                 for k in range(found.number)

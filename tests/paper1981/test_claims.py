@@ -9,7 +9,7 @@ from bikestab.model import canonical_matrices, characteristic_table, coefficient
 from bikestab.paper1981 import box as paper
 from bikestab.paper1981 import claims, damping, evidence, refinement
 from bikestab.paper1981.machines import random_machines
-from bikestab.speeds import stable_intervals
+from bikestab.speeds import intervals_of
 from tests.small import TINY, study
 from tests.strategies import lams, machines, sigmas
 
@@ -141,7 +141,7 @@ def test_closed_form_on_any_machine(values, lam, sigma):
     size = [1e-4, 1e-4, 1e-6, 1e-3, 1e-6 * abs(table[4, 0] * table[1, 3])]
     assume(all(abs(v) > s for v, s in zip(lead, size, strict=True)))  # equality is another matter
     formula = bool(paper.stable_at_high_speed(table))
-    assert formula == bool(np.isinf(stable_intervals(table).V2).any())
+    assert formula == bool(np.isinf(intervals_of(table).V2).any())
     if min(lead[:3]) > 0:
         assert formula == bool(lead[3] > 0 and lead[4] > 0)
 

@@ -15,8 +15,8 @@ from bikestab.model import characteristic_table
 from bikestab.plot.slices import draw_slice, save, slice_name
 from bikestab.routh import conditions
 from bikestab.scan.run import run_scan
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import CAPSIZE, WEAVE, stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import CAPSIZE, WEAVE, intervals_of
 from bikestab.volume import Volume
 
 BICYCLE = Bicycle.preset("dikarev1981")
@@ -122,10 +122,10 @@ def test_on_the_grid_the_colours_are_the_volumes(volume, draw):
 def test_off_the_grid_the_colours_are_computed(volume, draw):
     lam, sigma, V = (volume.axis(name) for name in ("lam", "sigma", "V"))
     table = characteristic_table(BICYCLE, 0.123, sigma)
-    expected = growth_rate(table[..., np.newaxis], V).T
+    expected = growth_rate_of(table[..., np.newaxis], V).T
     np.testing.assert_allclose(colours(draw("lam", 0.123)), expected, rtol=1e-12)
     table = characteristic_table(BICYCLE, lam[:, np.newaxis], sigma)
-    expected = growth_rate(table, 5.5).T
+    expected = growth_rate_of(table, 5.5).T
     np.testing.assert_allclose(colours(draw("V", 5.5)), expected, rtol=1e-12)
 
 
@@ -141,7 +141,7 @@ def test_a_volume_without_growth_rate(tmp_path, draw):
 
 def ends(lam, sigma):
     """The ends of the stable intervals of designs, with kind: (cell, end)."""
-    found = stable_intervals(characteristic_table(BICYCLE, lam, sigma))
+    found = intervals_of(characteristic_table(BICYCLE, lam, sigma))
     return (
         np.concatenate([found.V1, found.V2], axis=-1),
         np.concatenate([found.lower, found.upper], axis=-1),

@@ -9,7 +9,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.region.curves import NAMES, trace
 from bikestab.region.skeleton import stable_ranges
-from bikestab.speeds import stable_intervals
+from bikestab.speeds import intervals_of
 from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
 from tests.strategies import machines
 
@@ -123,7 +123,7 @@ def test_what_happens_across(curves, which):
         along = np.array([np.gradient(curve.lam), np.gradient(curve.sigma)])[:, 3:-3]
         aside = np.array([-along[1], along[0]]) / np.hypot(*along) * 1e-6
         sides = [
-            stable_intervals(characteristic_table(bicycle, curve.lam[3:-3] + x, curve.sigma[3:-3] + y))
+            intervals_of(characteristic_table(bicycle, curve.lam[3:-3] + x, curve.sigma[3:-3] + y))
             for x, y in (aside, -aside)
         ]
         number = np.abs(sides[0].number - sides[1].number)
@@ -141,7 +141,7 @@ def test_no_unbounded_interval_outside_its_curves(curves, which):
     """A million random designs: to infinity only between weave and capsize at infinity."""
     bicycle = {"1981": DIKAREV, "2007": MEIJAARD}[which]
     lam, sigma = np.random.default_rng(5).uniform(0, [[0.6], [0.5]], (2, 1_000_000))
-    infinite = np.isposinf(stable_intervals(characteristic_table(bicycle, lam, sigma)).V2).any(axis=-1)
+    infinite = np.isposinf(intervals_of(characteristic_table(bicycle, lam, sigma)).V2).any(axis=-1)
     named = {curve.name: curve for curve in curves[which, 0.0]}
     ends = []
     for name in ("weave at infinity", "capsize at infinity"):

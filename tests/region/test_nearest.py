@@ -6,14 +6,14 @@ import pytest
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, nearest_stable
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import intervals_of
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
 
 
 def stable(bicycle, lam, sigma, model="refined"):
-    return stable_intervals(characteristic_table(bicycle, lam, sigma, model=model)).number > 0
+    return intervals_of(characteristic_table(bicycle, lam, sigma, model=model)).number > 0
 
 
 @pytest.fixture(scope="module")
@@ -106,8 +106,8 @@ def test_beyond_the_searched_trails():
 def test_the_speed_of_the_smallest_growth_rate(bicycle, lam):
     near = nearest_stable(bicycle, lam, 0.02)
     table = characteristic_table(bicycle, lam, 0.02)
-    dense = growth_rate(table, np.linspace(0, V_MAX, 100_001))
-    assert near["growth_rate"] == pytest.approx(float(growth_rate(table, near["V"])), rel=1e-12)
+    dense = growth_rate_of(table, np.linspace(0, V_MAX, 100_001))
+    assert near["growth_rate"] == pytest.approx(float(growth_rate_of(table, near["V"])), rel=1e-12)
     assert near["growth_rate"] <= dense.min() + 1e-12
     assert near["growth_rate"] > 0
     assert 0 <= near["V"] <= V_MAX

@@ -18,7 +18,7 @@ from bikestab.region.skeleton import (
     stable_ranges,
 )
 from bikestab.routh import stable
-from bikestab.speeds import stable_intervals
+from bikestab.speeds import intervals_of
 from tests.strategies import machines, sigmas
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -28,7 +28,7 @@ each_bicycle = pytest.mark.parametrize("bicycle", BICYCLES.values(), ids=BICYCLE
 
 
 def has_stable(bicycle, lam, sigma):
-    return stable_intervals(characteristic_table(bicycle, lam, sigma)).number > 0
+    return intervals_of(characteristic_table(bicycle, lam, sigma)).number > 0
 
 
 def within(values, ranges):
@@ -114,7 +114,7 @@ def test_the_kinds_of_the_ends_change_only_at_crossings(machine):
     cuts = crossings(line, 0.0, 0.6)[0]
     for a, b in pairwise(cuts):
         if b - a > 1e-6:
-            found = stable_intervals(characteristic_table(bicycle, np.linspace(a, b, 52)[1:-1], 0.1))
+            found = intervals_of(characteristic_table(bicycle, np.linspace(a, b, 52)[1:-1], 0.1))
             assert np.ptp(found.lower, axis=0).max() == 0
             assert np.ptp(found.upper, axis=0).max() == 0
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from bikestab.bicycle import Bicycle
 from bikestab.routh import CONDITIONS
 from bikestab.scan.sheets import Atlas, Roots, Sheets, critical_roots, most_roots, sheets
-from bikestab.speeds import Intervals, stable_intervals
+from bikestab.speeds import Intervals, intervals_of
 from tests.scan.test_sheets import (
     DAMPED_LITTLE,
     DIKAREV,
@@ -50,7 +50,7 @@ def in_tiles(name, roots, intervals, tile):
 
 
 def all_in_tiles(table, tile):
-    intervals = stable_intervals(table)
+    intervals = intervals_of(table)
     return {name: in_tiles(name, roots, intervals, tile) for name, roots in critical_roots(table).items()}
 
 
@@ -58,7 +58,7 @@ def all_in_tiles(table, tile):
 @pytest.mark.parametrize("bicycle", [*MACHINES, DAMPED_LITTLE], ids=[*IDS, "damped little"])
 def test_tiles_give_the_sheets_of_one_piece(bicycle, tile):
     table = plane(bicycle)[2]
-    found, intervals = all_in_tiles(table, tile), stable_intervals(table)
+    found, intervals = all_in_tiles(table, tile), intervals_of(table)
     for name, roots in critical_roots(table).items():
         whole = sheets(name, roots, intervals)
         np.testing.assert_array_equal(found[name].V, whole.V)
@@ -82,7 +82,7 @@ def test_random_machines(machine, tile):
     table = plane(Bicycle.from_mapping(machine), 7, 0.9, 0.5)[2]
     found = all_in_tiles(table, tile)
     assert_complete(table, found)
-    assert_edges(stable_intervals(table), found)
+    assert_edges(intervals_of(table), found)
     for name, (V, rising) in critical_roots(table).items():
         assert_slots_are_connected(V, rising[..., 0], found[name].V)
 

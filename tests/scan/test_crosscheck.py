@@ -12,7 +12,7 @@ from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition, condition_polynomials, conditions
 from bikestab.scan.crosscheck import AGREEMENT, Agreement, check
 from bikestab.scan.signs import violated_between
-from bikestab.speeds import critical, critical_speeds, stable_intervals
+from bikestab.speeds import critical, critical_speeds, intervals_of
 from tests.onecell import table_of
 from tests.strategies import machines
 
@@ -91,12 +91,12 @@ def bisect(low, high, is_low):
 
 def test_near_the_end_of_the_stable_region():
     """Where weave meets capsize."""
-    low, high = bisect(0.1, 0.3, lambda lam: not stable_intervals(cells(DIKAREV, lam, [0.08])).number.any())
+    low, high = bisect(0.1, 0.3, lambda lam: not intervals_of(cells(DIKAREV, lam, [0.08])).number.any())
     table = cells(DIKAREV, high + np.array([0, 1e-13, 1e-10, 1e-7]), [0.08])
-    inside = stable_intervals(table)
+    inside = intervals_of(table)
     assert np.all(inside.number == 1)
     assert np.all(np.diff(inside.V2[:, 0] - inside.V1[:, 0]) > 0)
-    assert stable_intervals(cells(DIKAREV, low, [0.08])).number == 0
+    assert intervals_of(cells(DIKAREV, low, [0.08])).number == 0
     assert checked(table).largest <= AGREEMENT
 
 

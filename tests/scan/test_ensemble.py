@@ -15,7 +15,7 @@ from bikestab.model import MODELS, characteristic_table
 from bikestab.routh import conditions, stable
 from bikestab.scan import ensemble
 from bikestab.scan.ensemble import ensemble_statistics
-from bikestab.speeds import Intervals, stable_intervals
+from bikestab.speeds import Intervals, intervals_of
 from tests.strategies import lams, machines, sigmas
 
 QUANTILES = [0.05, 0.25, 0.5, 0.75, 0.95]
@@ -64,7 +64,7 @@ def by_loops(bicycles, lam, sigma, V, model):
         for bicycle in bicycles:
             table = characteristic_table(bicycle, lam[j], sigma[j], model=model)
             out["probability"][j] += stable(table[..., np.newaxis], V)
-            found = stable_intervals(table)
+            found = intervals_of(table)
             pairs = list(zip(found.V1[: found.number], found.V2[: found.number], strict=True))
             out["somewhere"][j] += bool(pairs)
             out["unbounded"][j] += any(math.isinf(V2) for _, V2 in pairs)
@@ -127,7 +127,7 @@ def test_a_narrow_ensemble_is_the_machine_itself(name):
     found = ensemble_statistics(Machines.drawn(bicycle, samples), lam, sigma, V[1:], "refined", QUANTILES)
     table = characteristic_table(bicycle, lam, sigma)
     np.testing.assert_array_equal(found.probability, stable(table[..., np.newaxis], V[1:]))
-    exact = stable_intervals(table)
+    exact = intervals_of(table)
     np.testing.assert_array_equal(found.somewhere, exact.number > 0)
     np.testing.assert_array_equal(found.unbounded, np.isinf(exact.V2).any(axis=-1))
     single = exact.number == 1
@@ -215,7 +215,7 @@ def fake_intervals(monkeypatch, *of_each_machine):
         for j, (a, b) in enumerate(pairs):
             V1[i, 0, j], V2[i, 0, j] = a, b
     kind = np.isfinite(V1).astype(np.uint8)
-    monkeypatch.setattr(ensemble, "stable_intervals", lambda _: Intervals(V1, V2, kind, kind))
+    monkeypatch.setattr(ensemble, "intervals_of", lambda _: Intervals(V1, V2, kind, kind))
     drawn = Machines.drawn(Bicycle.preset("dikarev1981"), {"m1": np.linspace(60, 90, len(of_each_machine))})
 
     def statistics(V, quantiles):

@@ -20,8 +20,8 @@ from bikestab.scan import tile as tiles
 from bikestab.scan.crosscheck import AGREEMENT
 from bikestab.scan.plan import Plan
 from bikestab.scan.run import check_size, run_scan
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import critical, critical_speeds, stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import critical, critical_speeds, intervals_of
 from tests.scans import config_of, files, load
 
 pytestmark = pytest.mark.usefixtures("in_an_empty_folder", "small_tiles")
@@ -42,9 +42,9 @@ def test_tiles_leave_no_trace(shape):
         mask = violated(conditions(table[..., np.newaxis], V))
         np.testing.assert_array_equal(file["violated"][()], mask)
         np.testing.assert_array_equal(file["stable"][()], mask == 0)
-        growth = growth_rate(table[..., np.newaxis], V)
+        growth = growth_rate_of(table[..., np.newaxis], V)
         np.testing.assert_array_equal(file["growth_rate"][()], growth.astype("f4"))
-        for name, values in stable_intervals(table)._asdict().items():
+        for name, values in intervals_of(table)._asdict().items():
             np.testing.assert_array_equal(file[name][()], values)
         assert file.attrs["complete"] == 1
         assert file.attrs["stable_points"] == result.stable_points
@@ -82,7 +82,7 @@ def test_boundary_holds_every_critical_speed():
     config = config_of((20, 20, 4))
     lam, sigma, V = (config.grid.values(name) for name in AXES)
     table = characteristic_table(config.machine, lam[:, np.newaxis], sigma)
-    inside = stable_intervals(table)
+    inside = intervals_of(table)
     ends = np.isin(inside.lower, [1, 2]).sum() + np.isin(inside.upper, [1, 2]).sum()
     with h5py.File(run_scan(config).path) as file:
         for name, exact in critical_speeds(table).items():

@@ -9,7 +9,7 @@ from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials
 from bikestab.scan.linking import SPEED
 from bikestab.scan.sheets import Roots, critical_roots, sheets
-from bikestab.speeds import CAPSIZE, WEAVE, Intervals, critical_speeds, stable_intervals
+from bikestab.speeds import CAPSIZE, WEAVE, Intervals, critical_speeds, intervals_of
 from tests.strategies import machines
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -24,7 +24,7 @@ def plane(bicycle, n=41, lam=0.3, sigma=0.15):
 
 
 def sheets_of(table):
-    intervals = stable_intervals(table)
+    intervals = intervals_of(table)
     return {name: sheets(name, roots, intervals) for name, roots in critical_roots(table).items()}
 
 
@@ -290,7 +290,7 @@ def assert_slots_are_connected(V, rising, arranged):
 @pytest.mark.parametrize("bicycle", MACHINES, ids=IDS)
 def test_edges_are_the_ends_of_the_stable_intervals(bicycle):
     table = plane(bicycle)[2]
-    assert_edges(stable_intervals(table), sheets_of(table))
+    assert_edges(intervals_of(table), sheets_of(table))
     edge, V = sheets_of(table)["hurwitz3"].edge, sheets_of(table)["hurwitz3"].V
     assert edge.any()
     assert np.any((edge == 0) & np.isfinite(V))  # not every root is an edge
@@ -322,12 +322,12 @@ def assert_edges(inside, found):
 @given(machines)
 def test_edges_of_random_machines(machine):
     table = plane(Bicycle.from_mapping(machine), 12, 0.9, 0.5)[2]
-    assert_edges(stable_intervals(table), sheets_of(table))
+    assert_edges(intervals_of(table), sheets_of(table))
 
 
 def test_edges_are_found_however_the_ends_are_rounded():
     table = plane(DIKAREV)[2]
-    inside, roots = stable_intervals(table), critical_roots(table)
+    inside, roots = intervals_of(table), critical_roots(table)
     off = inside._replace(V1=inside.V1 * (1 + 1e-12), V2=inside.V2 * (1 - 1e-12))
     for name in ("p0", "hurwitz3"):
         exact = sheets(name, roots[name], inside).edge

@@ -14,8 +14,8 @@ from bikestab.scan import tile as tiles
 from bikestab.scan.chunks import places
 from bikestab.scan.sheets import critical_roots, most_roots
 from bikestab.scan.tile import Columns, Tile, compute, joined, parted
-from bikestab.spectrum import growth_rate
-from bikestab.speeds import critical, stable_intervals
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import critical, intervals_of
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
 FIELDS = ("stable", "violated", "growth_rate", *CONDITIONS)
@@ -65,7 +65,7 @@ def test_fields_are_what_a_direct_evaluation_gives(bicycle, model, shape):
     values = conditions(table, tile.V)
     np.testing.assert_array_equal(found["violated"], violated(values))
     np.testing.assert_array_equal(found["stable"], violated(values) == 0)
-    np.testing.assert_array_equal(found["growth_rate"], growth_rate(table, tile.V).astype("f4"))
+    np.testing.assert_array_equal(found["growth_rate"], growth_rate_of(table, tile.V).astype("f4"))
     for name in CONDITIONS:
         np.testing.assert_array_equal(found[name], getattr(values, name))
     assert finished.notes["stable_points"] == np.count_nonzero(violated(values) == 0)
@@ -83,7 +83,7 @@ def test_columns_are_the_intervals_and_roots(bicycle):
     tile = tile_of(bicycle)
     finished = compute(tile)
     found, table = Columns.from_bytes(finished.columns), table_of(tile)
-    for values, expected in zip(found.intervals, stable_intervals(table), strict=True):
+    for values, expected in zip(found.intervals, intervals_of(table), strict=True):
         np.testing.assert_array_equal(values, expected)
         assert values.dtype == expected.dtype
     for name, roots in critical_roots(table).items():

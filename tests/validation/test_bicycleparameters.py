@@ -17,8 +17,8 @@ from scipy.optimize import linear_sum_assignment
 
 from bikestab.bicycle import MEIJAARD, Bicycle
 from bikestab.model import canonical_matrices, characteristic_table
-from bikestab.spectrum import eigenvalues, growth_rate
-from bikestab.speeds import stable_intervals
+from bikestab.spectrum import eigenvalues_of, growth_rate_of
+from bikestab.speeds import intervals_of
 
 PACKAGE = Path(bicycleparameters.__file__).parent
 KEYS = set(MEIJAARD) - {"delta"}
@@ -88,24 +88,24 @@ def test_eigenvalues(machine, table):
     The package takes a matrix's eigenvalues, which are right to ε times their condition. That is some
     hundreds where two are nearly equal, as below the weave speed; at none of these speeds is it more.
     """
-    found, expected = eigenvalues(table[..., np.newaxis], V).T, model_of(machine).calc_eigen(v=V)[0]
+    found, expected = eigenvalues_of(table[..., np.newaxis], V).T, model_of(machine).calc_eigen(v=V)[0]
     for got, want in zip(found, expected, strict=True):
         distance = np.abs(got[:, np.newaxis] - want)
         assert distance[linear_sum_assignment(distance)].max() <= 1e-12 * np.abs(want).max()
 
 
 def test_stable_where_the_package_says_so(machine, table):
-    intervals = stable_intervals(table)
+    intervals = intervals_of(table)
     inside = np.any((V[:, np.newaxis] > intervals.V1) & (V[:, np.newaxis] < intervals.V2), axis=1)
     assert np.array_equal(inside, growth_of(machine, V) < 0)
-    assert np.array_equal(inside, growth_rate(table[..., np.newaxis], V) < 0)
+    assert np.array_equal(inside, growth_rate_of(table[..., np.newaxis], V) < 0)
 
 
 def test_ends_are_sign_changes_of_the_package(machine, table):
     """Its growth rate changes sign within 1e-9 of V1 and of V2: where it crosses with some 0.1 s⁻¹ per m/s,
     rounding of 1e-13 s⁻¹ moves the crossing by 1e-12 m/s.
     """
-    intervals = stable_intervals(table)
+    intervals = intervals_of(table)
     ends = [(V1, +1) for V1 in intervals.V1] + [(V2, -1) for V2 in intervals.V2]
     for end, side in ends:
         if np.isfinite(end) and end > 0:
@@ -117,7 +117,7 @@ def test_a_measured_bicycle_without_upper_speed():
     """Yellow with its fork reversed, a trail of 0.18 m: conclusion 1 of the 1981 paper fails here too."""
     machine = MEASURED["YellowrevBenchmark"]
     bicycle = Bicycle.from_mapping(machine)
-    found = stable_intervals(characteristic_table(bicycle, bicycle.lam, bicycle.sigma))
+    found = intervals_of(characteristic_table(bicycle, bicycle.lam, bicycle.sigma))
     assert found.V1.tolist() == pytest.approx([3.7753], rel=0, abs=5e-5)
     assert found.V2.tolist() == [np.inf]
     assert growth_of(machine, np.geomspace(3.8, 1e3, 100)).max() < 0

@@ -10,7 +10,7 @@ import pytest
 
 from bikestab.bicycle import Bicycle, preset_names
 from bikestab.model import characteristic_table
-from bikestab.spectrum import eigenvalues, growth_rate
+from bikestab.spectrum import eigenvalues_of, growth_rate_of
 from tests.references import generate_eigenvalues as reference
 
 CASES = json.loads(reference.FILE.read_text("utf-8"))
@@ -44,10 +44,10 @@ def test_eigenvalues(case):
     V = np.array(reference.V, float)
     exact = np.array(case["eigenvalues"], float) @ [1, 1j]
     size = np.abs(exact).max(axis=1)
-    distance = np.abs(eigenvalues(table, V).T[:, :, np.newaxis] - exact[:, np.newaxis])
+    distance = np.abs(eigenvalues_of(table, V).T[:, :, np.newaxis] - exact[:, np.newaxis])
     assert np.all(distance.min(axis=1).max(axis=-1) <= TOLERANCE * size)
     assert np.all(distance.min(axis=2).max(axis=-1) <= TOLERANCE * size)
-    assert np.all(np.abs(growth_rate(table, V) - exact.real.max(axis=1)) <= TOLERANCE * size)
+    assert np.all(np.abs(growth_rate_of(table, V) - exact.real.max(axis=1)) <= TOLERANCE * size)
 
 
 @pytest.mark.parametrize("index", [1, 6, 7, 9])

@@ -11,8 +11,8 @@ from mpmath import mp, mpf
 
 from bikestab.bicycle import Bicycle, parameters
 from bikestab.model import canonical_matrices, characteristic_table
-from bikestab.spectrum import eigenvalues, growth_rate
-from bikestab.speeds import CAPSIZE, UNBOUNDED, WEAVE, critical_speeds, stable_intervals
+from bikestab.spectrum import eigenvalues_of, growth_rate_of
+from bikestab.speeds import CAPSIZE, UNBOUNDED, WEAVE, critical_speeds, intervals_of
 from tests.references import generate_speeds as reference
 
 SPEEDS = (10.0, 100.0, 1000.0)  # m/s
@@ -69,7 +69,7 @@ def test_stable_from_weave_on_without_end(table):
     """The weave speed in 40 digits, to 1e-13: the front mass is 3.7 cm ahead of the axis, and the rounding
     of that difference of lengths of 1 m is 3e-15 of it.
     """
-    found = stable_intervals(table)
+    found = intervals_of(table)
     with mp.workdps(40):
         ((lower, upper),) = reference.stable_intervals(exact_table())
     assert (found.lower.tolist(), found.upper.tolist()) == ([WEAVE], [UNBOUNDED])
@@ -80,7 +80,7 @@ def test_stable_from_weave_on_without_end(table):
 
 
 def test_weave_speed_is_a_sign_change_of_the_matrix(table):
-    V1 = stable_intervals(table).V1[0]
+    V1 = intervals_of(table).V1[0]
     below, above = (matrix_eigenvalues(V1 * (1 + side)).real.max() for side in (-1e-9, 1e-9))
     assert below > 0 > above
 
@@ -91,7 +91,7 @@ def test_eigenvalues_far_up(table, V):
 
     The matrix's are right to 1e-13 of the largest only, which at 1000 m/s is 2e6 times the slowest one.
     """
-    found = np.sort_complex(eigenvalues(table, V))
+    found = np.sort_complex(eigenvalues_of(table, V))
     with mp.workdps(40):
         exact = np.sort_complex([complex(s) for s in reference.eigenvalues(exact_table(), mpf(V))])
     assert found == pytest.approx(exact, rel=1e-13, abs=0)
@@ -99,15 +99,15 @@ def test_eigenvalues_far_up(table, V):
         exact, rel=0, abs=1e-13 * np.abs(exact).max()
     )
     assert exact.real.max() < 0
-    assert growth_rate(table, V) == pytest.approx(exact.real.max(), rel=1e-13)
+    assert growth_rate_of(table, V) == pytest.approx(exact.real.max(), rel=1e-13)
 
 
 def test_decay_fades_as_the_inverse_of_speed(table):
     """What is left far up is p2 (V s)² + p1 (V s) + p0 = 0, so that s V tends to −p1/(2 p2) ± …: never up."""
     slow = np.roots([table[2, 2], table[1, 1], table[0, 0]])
     assert slow.imag.max() > 0
-    assert growth_rate(table, 1e5) * 1e5 == pytest.approx(slow.real[0], rel=1e-8)
-    assert growth_rate(table, np.geomspace(2.85, 1e5, 200)).max() < 0
+    assert growth_rate_of(table, 1e5) * 1e5 == pytest.approx(slow.real[0], rel=1e-8)
+    assert growth_rate_of(table, np.geomspace(2.85, 1e5, 200)).max() < 0
 
 
 def test_only_spinning_wheels_can_bound_it(bicycle):
@@ -119,5 +119,5 @@ def test_only_spinning_wheels_can_bound_it(bicycle):
         assert characteristic_table(bicycle, bicycle.lam, sigma)[0, 2] == 0
     n = {key: value for key, value in bicycle.numbers().items() if value is not None}
     for spin, kind in (({"C1": 0.01, "R1": 0.3}, UNBOUNDED), ({"C2": 0.01, "R2": 0.3}, CAPSIZE)):
-        found = stable_intervals(characteristic_table(Bicycle.from_mapping(n | spin), bicycle.lam, 0))
+        found = intervals_of(characteristic_table(Bicycle.from_mapping(n | spin), bicycle.lam, 0))
         assert found.upper.tolist() == [kind]

@@ -10,8 +10,8 @@ import pytest
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import canonical_matrices, characteristic_table
-from bikestab.spectrum import eigenvalues, growth_rate
-from bikestab.speeds import KINDS, stable_intervals
+from bikestab.spectrum import eigenvalues_of, growth_rate_of
+from bikestab.speeds import KINDS, intervals_of
 
 PUBLISHED = {
     "M": [[80.81722, 2.31941332208709], [2.31941332208709, 0.29784188199686]],
@@ -56,7 +56,7 @@ def test_matrices(bicycle, name):
 
 
 def test_weave_and_capsize_speed(table):
-    found = stable_intervals(table)
+    found = intervals_of(table)
     assert found.V1.tolist() == pytest.approx([4.29238253634111], rel=0, abs=1e-14)
     assert found.V2.tolist() == pytest.approx(
         [6.02426201538837], rel=0, abs=2e-14
@@ -66,7 +66,7 @@ def test_weave_and_capsize_speed(table):
 
 def test_speeds_in_40_digits(table):
     """To 1e-15 relative: the paper's digits end before double precision does."""
-    found = stable_intervals(table)
+    found = intervals_of(table)
     assert found.V1[0] == pytest.approx(4.2923825363411039587, rel=1e-15)
     assert found.V2[0] == pytest.approx(6.0242620153883588899, rel=1e-15)
 
@@ -74,12 +74,12 @@ def test_speeds_in_40_digits(table):
 @pytest.mark.parametrize("V", EIGENVALUES)
 def test_eigenvalues(table, V):
     expected = np.array([s for x in EIGENVALUES[V] for s in {x, np.conj(x)}])
-    found = eigenvalues(table, V)
+    found = eigenvalues_of(table, V)
     assert np.sort_complex(found) == pytest.approx(np.sort_complex(expected), rel=2e-14, abs=1e-13)
-    assert growth_rate(table, V) == pytest.approx(expected.real.max(), rel=0, abs=1e-13)
+    assert growth_rate_of(table, V) == pytest.approx(expected.real.max(), rel=0, abs=1e-13)
 
 
 def test_coalescence(table):
     """The two positive eigenvalues are real below 0.68428307889246 m/s, and a pair above."""
     for V, pairs in ((COALESCENCE - 1e-12, 0), (COALESCENCE + 1e-12, 1)):
-        assert np.count_nonzero(eigenvalues(table, V).imag > 0) == pairs
+        assert np.count_nonzero(eigenvalues_of(table, V).imag > 0) == pairs

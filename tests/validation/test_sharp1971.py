@@ -15,8 +15,8 @@ from scipy.optimize import brentq
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
-from bikestab.spectrum import eigenvalues
-from bikestab.speeds import CAPSIZE, WEAVE, stable_intervals
+from bikestab.spectrum import eigenvalues_of
+from bikestab.speeds import CAPSIZE, WEAVE, intervals_of
 
 FT, LBF = 0.3048, 4.4482216152605  # m, N
 SLUG = LBF / FT
@@ -126,7 +126,7 @@ def test_another_transcription(bicycle):
 @pytest.mark.parametrize("u", [0.5, 3.0, 6.0, 10.0, 20.0, 60.0])
 def test_sharps_equations_without_slip(u, K):
     """All four eigenvalues, hence every sign of the reduction."""
-    found = eigenvalues(table_of(Bicycle.from_mapping(reduced(delta=K))), u)
+    found = eigenvalues_of(table_of(Bicycle.from_mapping(reduced(delta=K))), u)
     expected = SHARP.eigenvalues(u, K, tyres=False)
     distance = np.abs(found[:, np.newaxis] - expected)
     assert distance.min(axis=0).max() <= ROUNDING * np.abs(expected).max()
@@ -145,18 +145,18 @@ def test_eigenvalues_of_bicycleparameters(bicycle):
     matrices, table = benchmark_par_to_canonical(machine), table_of(bicycle.with_delta(0))
     for V in np.linspace(0, 60, 25):
         expected = np.linalg.eigvals(ab_matrix(*matrices, V, p.g)[0])
-        distance = np.abs(eigenvalues(table, V)[:, np.newaxis] - expected)
+        distance = np.abs(eigenvalues_of(table, V)[:, np.newaxis] - expected)
         assert distance.min(axis=0).max() <= ROUNDING * np.abs(expected).max()
         assert distance.min(axis=1).max() <= ROUNDING * np.abs(expected).max()
 
 
 def test_stable_speeds(bicycle):
     """Weave to capsize; the damper raises the weave speed and leaves the capsize speed."""
-    found = stable_intervals(table_of(bicycle))
+    found = intervals_of(table_of(bicycle))
     assert found.V1.tolist() == pytest.approx([6.055729], rel=0, abs=5e-7)
     assert found.V2.tolist() == pytest.approx([11.316033], rel=0, abs=5e-7)
     assert (found.lower.tolist(), found.upper.tolist()) == ([WEAVE], [CAPSIZE])
-    free = stable_intervals(table_of(bicycle.with_delta(0)))
+    free = intervals_of(table_of(bicycle.with_delta(0)))
     assert free.V1.tolist() == pytest.approx([5.633071], rel=0, abs=5e-7)
     assert free.V2.tolist() == pytest.approx(found.V2.tolist(), rel=1e-14)
 
@@ -168,7 +168,7 @@ def edge(select, low, high):
 
 def test_what_his_tyres_change(bicycle):
     """The numbers of docs/motorcycle.md: both ends within 2 %, and a wobble the rigid wheels do not have."""
-    found = stable_intervals(table_of(bicycle))
+    found = intervals_of(table_of(bicycle))
     weave = edge(lambda s: s[np.abs(s.imag) < 5], 3, 8)
     capsize = edge(lambda s: s[np.abs(s.imag) < 1e-9], 8, 20)
     wobble = edge(lambda s: s[s.imag > 45], 30, 80)
@@ -178,7 +178,7 @@ def test_what_his_tyres_change(bicycle):
     for u in (10.0, 30.0, 60.0):
         s = SHARP.eigenvalues(u)
         assert s.imag.max() / (2 * np.pi) == pytest.approx(9, abs=0.7)  # Hz, at any speed
-    rigid, slipping = eigenvalues(table_of(bicycle), 40.0), SHARP.eigenvalues(40.0)
+    rigid, slipping = eigenvalues_of(table_of(bicycle), 40.0), SHARP.eigenvalues(40.0)
     pair = slipping[(slipping.imag > 10) & (slipping.imag < 45)]
     assert rigid.real[rigid.imag > 0] == pytest.approx([-19.2], abs=0.05)  # weave is overdamped without slip
     assert pair.real == pytest.approx([-1.10], abs=0.005)
