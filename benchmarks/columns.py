@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials
-from bikestab.scan.sheets import Atlas, Roots, most_roots
+from bikestab.scanning.sheets import Atlas, Roots, most_roots
 from bikestab.speeds import critical, intervals_between, intervals_of
 
 TILE = (64, 128)  # λ and σ, as a scan has them

@@ -22,8 +22,8 @@ from bikestab.bicycle import Bicycle, preset_text
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.notation import MEIJAARD
 from bikestab.routh import conditions, violated
-from bikestab.scan.signs import violated_between
-from bikestab.scan.tile import Tile, _field, compute
+from bikestab.scanning.signs import violated_between
+from bikestab.scanning.tile import Tile, _field, compute
 from bikestab.speeds import critical
 from bikestab.units import ANGLE, PURE, quantity
 

@@ -19,7 +19,7 @@ import numpy as np
 from command import ALL, MASKS, Run, scan
 from common import DELTA, Aim, Report, Table, short
 
-from bikestab.scan.plan import FIELDS
+from bikestab.scanning.plan import FIELDS
 
 SIZES = (64, 128, 256, 512)  # points along each axis
 AIMED = 512  # of the scan that aims are set for

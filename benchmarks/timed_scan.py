@@ -72,9 +72,9 @@ def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
     """Around the parts of a scan; at the end ``workers`` has the peak memory of each process."""
     from bikestab_cli import scan as command
 
-    from bikestab.scan import processes as pool
-    from bikestab.scan import run as scan
-    from bikestab.scan import tile as tiles
+    from bikestab.scanning import processes as pool
+    from bikestab.scanning import run as scan
+    from bikestab.scanning import tile as tiles
 
     clock.around(scan, "run_scan", "rest")
     clock.around(scan, "_assemble", "writing")

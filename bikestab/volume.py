@@ -16,7 +16,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.config.scanconfig import Axis
 from bikestab.errors import InputError, nearest
 from bikestab.model import Floats, Model
-from bikestab.scan.plan import FIELDS
+from bikestab.scanning.plan import FIELDS
 
 
 class Volume:

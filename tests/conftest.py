@@ -2,10 +2,10 @@
 
 import pytest
 
-from bikestab.scan import plan
-from bikestab.scan import processes as workers
-from bikestab.scan import tile as tiles
-from bikestab.scan.run import run_scan
+from bikestab.scanning import plan
+from bikestab.scanning import processes as workers
+from bikestab.scanning import tile as tiles
+from bikestab.scanning.run import run_scan
 from tests import volumes
 
 

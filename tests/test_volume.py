@@ -12,7 +12,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.config.scanconfig import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scan.run import run_scan
+from bikestab.scanning.run import run_scan
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import KINDS, intervals_of
 from bikestab.volume import Volume

@@ -25,7 +25,7 @@ from bikestab.units import SPEED
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
-    from bikestab.modes import Modes
+    from bikestab.branches import Modes
 
 SPEEDS = QuantityRange("speed", SPEED)
 
@@ -77,8 +77,8 @@ def command(
       bikestab eigen --bicycle meijaard2007 --V 0:36km/h:361 -o modes.png --csv modes.csv
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
+    from bikestab.branches import follow
     from bikestab.model import characteristic_table
-    from bikestab.modes import follow
 
     if min(speeds) < 0:
         raise click.BadParameter(f"{min(speeds):g} m/s is negative; allowed: 0 and above", param_hint="--V")
@@ -156,7 +156,7 @@ def _intervals(coefficients: Any) -> list[dict[str, Any]]:
 
 def _plain(modes: Modes) -> dict[str, Any]:
     """Modes as lists; a branch has one name for each speed, since it can change where two meet."""
-    from bikestab.modes import BRANCHES
+    from bikestab.branches import BRANCHES
 
     return {
         "coalescences": [
@@ -179,7 +179,7 @@ def _told(interval: dict[str, Any]) -> str:
 
 
 def _meetings(modes: Modes, up_to: float) -> list[str]:
-    from bikestab.modes import BRANCHES
+    from bikestab.branches import BRANCHES
 
     return [
         f"{' and '.join(dict.fromkeys(BRANCHES[row] for row in pair))}: "

@@ -14,7 +14,7 @@ from bikestab_cli.progress import progress
 
 if TYPE_CHECKING:
     from bikestab.config.scanconfig import ScanConfig
-    from bikestab.scan.run import ScanResult
+    from bikestab.scanning.run import ScanResult
     from bikestab.volume import Volume
 
 MOST_DRAWN = 8  # machines of a sweep
@@ -62,7 +62,7 @@ def command(
     """
     from bikestab.config.file import load_config
     from bikestab.errors import InputError
-    from bikestab.scan.run import check_size, volume_path
+    from bikestab.scanning.run import check_size, volume_path
 
     if jobs and scheduler:
         raise click.UsageError("--jobs is for this machine, --scheduler for a cluster; give one of them")
@@ -99,7 +99,7 @@ def _run(
     name: str, config: ScanConfig, force: bool, jobs: int | None, scheduler: str, quiet: bool
 ) -> ScanResult:
     from bikestab.errors import InputError
-    from bikestab.scan.run import run_scan, tiles_path
+    from bikestab.scanning.run import run_scan, tiles_path
 
     try:
         with progress(name, quiet) as show:

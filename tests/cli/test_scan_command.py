@@ -8,8 +8,8 @@ import h5py
 import pytest
 from bikestab_cli import progress
 
-from bikestab.scan import plan
-from bikestab.scan import processes as workers
+from bikestab.scanning import plan
+from bikestab.scanning import processes as workers
 
 CONFIG = """\
 bicycle: dikarev1981

@@ -18,7 +18,7 @@ from bikestab.model import characteristic_table
 from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import region_mesh
 from bikestab.routh import conditions
-from bikestab.scan.run import run_scan
+from bikestab.scanning.run import run_scan
 from bikestab.speeds import CAPSIZE, KINDS, WEAVE, intervals_of
 from bikestab.volume import Volume
 

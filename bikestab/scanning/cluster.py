@@ -15,8 +15,8 @@ import numpy as np
 
 from bikestab import __version__
 from bikestab.errors import KEPT, InputError, ScanError
-from bikestab.scan.processes import Numbered, undisturbed, without_script
-from bikestab.scan.tile import Finished, compute
+from bikestab.scanning.processes import Numbered, undisturbed, without_script
+from bikestab.scanning.tile import Finished, compute
 
 ANSWER, PATIENCE = 8.0, 30.0  # s to wait for a scheduler, and for a worker where there is none
 _LOOK = 2.0  # s between two looks at how many there are

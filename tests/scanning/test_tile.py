@@ -10,10 +10,10 @@ from bikestab.bicycle import Bicycle
 from bikestab.errors import ScanError
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scan import tile as tiles
-from bikestab.scan.chunks import places
-from bikestab.scan.sheets import critical_roots, most_roots
-from bikestab.scan.tile import Columns, Tile, compute, joined, parted
+from bikestab.scanning import tile as tiles
+from bikestab.scanning.chunks import places
+from bikestab.scanning.sheets import critical_roots, most_roots
+from bikestab.scanning.tile import Columns, Tile, compute, joined, parted
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import critical, intervals_of
 

@@ -14,12 +14,12 @@ from bikestab.config.scanconfig import AXES
 from bikestab.errors import InputError, ScanError
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scan import plan
-from bikestab.scan import run as scan
-from bikestab.scan import tile as tiles
-from bikestab.scan.crosscheck import AGREEMENT
-from bikestab.scan.plan import Plan
-from bikestab.scan.run import check_size, run_scan
+from bikestab.scanning import plan
+from bikestab.scanning import run as scan
+from bikestab.scanning import tile as tiles
+from bikestab.scanning.crosscheck import AGREEMENT
+from bikestab.scanning.plan import Plan
+from bikestab.scanning.run import check_size, run_scan
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import critical, critical_speeds, intervals_of
 from tests.scans import config_of, files, load
@@ -132,7 +132,7 @@ import resource
 from pathlib import Path
 from bikestab.config.file import load_config
 from bikestab.errors import ScanError
-from bikestab.scan.run import run_scan
+from bikestab.scanning.run import run_scan
 
 soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
 calls = []

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from bikestab.errors import InputError, ScanError
-from bikestab.scan import cluster
-from bikestab.scan.run import run_scan
+from bikestab.scanning import cluster
+from bikestab.scanning.run import run_scan
 from tests.scans import config_of, files
 
 distributed = pytest.importorskip("distributed")
@@ -31,7 +31,7 @@ def config(more="fields: [growth_rate]\n"):
 def expected(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patched:
         patched.chdir(tmp_path_factory.mktemp("here"))
-        patched.setattr("bikestab.scan.plan._TILE_BYTES", 1)
+        patched.setattr("bikestab.scanning.plan._TILE_BYTES", 1)
         return run_scan(config()).path.read_bytes()
 
 
@@ -122,9 +122,9 @@ def test_another_version_is_refused(monkeypatch):
 
 
 SCRIPT = """
-from bikestab.scan import plan
+from bikestab.scanning import plan
 from bikestab.config.file import load_config
-from bikestab.scan.run import run_scan
+from bikestab.scanning.run import run_scan
 import psutil
 
 plan._TILE_BYTES = 1

@@ -10,8 +10,8 @@ from bikestab import yamltext
 from bikestab.config.file import parse_config
 from bikestab.errors import InputError
 from bikestab.plot.slices import draw_slice
-from bikestab.scan.ensemble import ensemble_statistics
-from bikestab.scan.run import run_scan
+from bikestab.scanning.ensemble import ensemble_statistics
+from bikestab.scanning.run import run_scan
 from bikestab.volume import Volume
 
 netCDF4 = pytest.importorskip("netCDF4")

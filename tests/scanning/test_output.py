@@ -9,12 +9,12 @@ import pytest
 
 import bikestab
 from bikestab.errors import InputError
-from bikestab.scan import processes as workers
-from bikestab.scan import run as scan
-from bikestab.scan.run import run_scan, tiles_path
-from bikestab.scan.spool import Spool
+from bikestab.scanning import processes as workers
+from bikestab.scanning import run as scan
+from bikestab.scanning.run import run_scan, tiles_path
+from bikestab.scanning.spool import Spool
 from bikestab.volume import Volume
-from tests.scan.test_resume import DONE, KEPT, config, interrupted, whole
+from tests.scanning.test_resume import DONE, KEPT, config, interrupted, whole
 from tests.scans import config_of as small
 from tests.scans import files, load
 

@@ -22,7 +22,7 @@ from types import ModuleType
 from typing import cast
 
 from bikestab.errors import KEPT, ScanError
-from bikestab.scan.tile import Finished, Tile, compute
+from bikestab.scanning.tile import Finished, Tile, compute
 
 Numbered = tuple[int, Tile]
 

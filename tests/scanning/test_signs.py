@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scan.signs import ALL, NEAR, violated_between
+from bikestab.scanning.signs import ALL, NEAR, violated_between
 from bikestab.speeds import critical
 from tests.onecell import table_of
 from tests.strategies import lams, machines, sigmas

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition, condition_polynomials, conditions
-from bikestab.scan.crosscheck import AGREEMENT, Agreement, check
-from bikestab.scan.signs import violated_between
+from bikestab.scanning.crosscheck import AGREEMENT, Agreement, check
+from bikestab.scanning.signs import violated_between
 from bikestab.speeds import critical, critical_speeds, intervals_of
 from tests.onecell import table_of
 from tests.strategies import machines

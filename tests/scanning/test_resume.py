@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from bikestab.errors import ScanError
-from bikestab.scan import processes as workers
-from bikestab.scan import run as scan
-from bikestab.scan import tile as tiles
-from bikestab.scan import writer
-from bikestab.scan.plan import Plan
-from bikestab.scan.run import run_scan
-from bikestab.scan.spool import Spool
+from bikestab.scanning import processes as workers
+from bikestab.scanning import run as scan
+from bikestab.scanning import tile as tiles
+from bikestab.scanning import writer
+from bikestab.scanning.plan import Plan
+from bikestab.scanning.run import run_scan
+from bikestab.scanning.spool import Spool
 from tests.scans import config_of, files
 
 pytestmark = pytest.mark.usefixtures("in_an_empty_folder", "small_tiles")

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from bikestab.errors import InputError, ScanError
-from bikestab.scan import spool as spools
-from bikestab.scan.spool import Spool
+from bikestab.scanning import spool as spools
+from bikestab.scanning.spool import Spool
 
 IDENTITY = {"config": "abc", "bicycle": '{"m1": 80.0}', "version of bikestab": "1.2"}
 NOTES = {"stable_points": 7, "agreement": [3, 1e-14, 0, 0.0, 1], "name": "σ"}
@@ -156,7 +156,7 @@ def test_a_spool_that_is_open_is_refused():
 HOLD = """
 import sys
 from pathlib import Path
-from bikestab.scan.spool import Spool
+from bikestab.scanning.spool import Spool
 spool = Spool(Path(sys.argv[1]), {})
 print("held", flush=True)
 sys.stdin.read()

@@ -20,11 +20,11 @@ from bikestab import __version__
 from bikestab.config.scanconfig import AXES
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
-from bikestab.scan.chunks import packed, places
-from bikestab.scan.crosscheck import Agreement
-from bikestab.scan.plan import FIELDS, Plan
-from bikestab.scan.sheets import Sheets
-from bikestab.scan.sink import Sink
+from bikestab.scanning.chunks import packed, places
+from bikestab.scanning.crosscheck import Agreement
+from bikestab.scanning.plan import FIELDS, Plan
+from bikestab.scanning.sheets import Sheets
+from bikestab.scanning.sink import Sink
 from bikestab.speeds import KINDS, Intervals, widened
 from bikestab.volume import parameters_text, uniform
 

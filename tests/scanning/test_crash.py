@@ -14,9 +14,9 @@ import pytest
 
 from bikestab.config.file import load_config
 from bikestab.errors import KEPT
-from bikestab.scan import plan
-from bikestab.scan.plan import Plan
-from bikestab.scan.run import run_scan
+from bikestab.scanning import plan
+from bikestab.scanning.plan import Plan
+from bikestab.scanning.run import run_scan
 
 pytestmark = [
     pytest.mark.usefixtures("in_an_empty_folder"),
@@ -37,10 +37,10 @@ output: out
 RUN = f"""
 import sys
 from pathlib import Path
-from bikestab.scan import plan
+from bikestab.scanning import plan
 from bikestab.config.file import load_config
 from bikestab.errors import ScanError
-from bikestab.scan.run import run_scan
+from bikestab.scanning.run import run_scan
 
 plan._TILE_BYTES = {TILE_BYTES}
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from bikestab.config.scanconfig import AXES, ScanConfig
 from bikestab.routh import CONDITIONS
-from bikestab.scan.tile import Tile
+from bikestab.scanning.tile import Tile
 
 FIELDS: dict[str, tuple[type[np.generic], str, str]] = {  # dtype, unit, meaning
     "stable": (np.uint8, "1", "rectilinear motion is asymptotically stable"),

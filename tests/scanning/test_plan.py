@@ -9,8 +9,8 @@ from bikestab import yamltext
 from bikestab.config.file import parse_config
 from bikestab.config.scanconfig import AXES
 from bikestab.routh import CONDITIONS
-from bikestab.scan import plan as plans
-from bikestab.scan.plan import FIELDS, Plan
+from bikestab.scanning import plan as plans
+from bikestab.scanning.plan import FIELDS, Plan
 
 ALL_FIELDS = "fields: [conditions, growth_rate, violated, stable]\n"
 

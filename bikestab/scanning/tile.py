@@ -16,11 +16,11 @@ from bikestab.bicycle import Bicycle
 from bikestab.errors import ScanError
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import CONDITIONS, condition
-from bikestab.scan.chunks import packed
-from bikestab.scan.crosscheck import AGREEMENT, Agreement, check
-from bikestab.scan.ensemble import ensemble_statistics
-from bikestab.scan.sheets import Roots, most_roots
-from bikestab.scan.signs import violated_between
+from bikestab.scanning.chunks import packed
+from bikestab.scanning.crosscheck import AGREEMENT, Agreement, check
+from bikestab.scanning.ensemble import ensemble_statistics
+from bikestab.scanning.sheets import Roots, most_roots
+from bikestab.scanning.signs import violated_between
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import Critical, Intervals, critical, intervals_between
 

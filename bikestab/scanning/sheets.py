@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
-from bikestab.scan.linking import Direction
+from bikestab.scanning.linking import Direction
 from bikestab.speeds import CAPSIZE, WEAVE, Intervals, critical
 
 EDGES = {"p0": CAPSIZE, "hurwitz3": WEAVE}  # the kind of end where a condition can be an edge of stability

@@ -13,8 +13,8 @@ from bikestab.bicycle import Bicycle
 from bikestab.machines import Machines, uniforms
 from bikestab.model import MODELS, characteristic_table
 from bikestab.routh import conditions, stable
-from bikestab.scan import ensemble
-from bikestab.scan.ensemble import ensemble_statistics
+from bikestab.scanning import ensemble
+from bikestab.scanning.ensemble import ensemble_statistics
 from bikestab.speeds import Intervals, intervals_of
 from tests.strategies import lams, machines, sigmas
 

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle
 from bikestab.routh import CONDITIONS
-from bikestab.scan.sheets import Atlas, Roots, Sheets, critical_roots, most_roots, sheets
+from bikestab.scanning.sheets import Atlas, Roots, Sheets, critical_roots, most_roots, sheets
 from bikestab.speeds import Intervals, intervals_of
-from tests.scan.test_sheets import (
+from tests.scanning.test_sheets import (
     DAMPED_LITTLE,
     DIKAREV,
     IDS,

@@ -18,14 +18,14 @@ from bikestab import yamltext
 from bikestab.config.scanconfig import AXES, ScanConfig
 from bikestab.errors import KEPT, InputError, ScanError, dotted
 from bikestab.routh import CONDITIONS
-from bikestab.scan.cluster import on_cluster, versions
-from bikestab.scan.crosscheck import Agreement
-from bikestab.scan.plan import FIELDS, Plan
-from bikestab.scan.processes import in_processes, in_turn
-from bikestab.scan.sheets import Atlas
-from bikestab.scan.spool import NO_SPACE, Spool, removed
-from bikestab.scan.tile import Columns, Finished, keep_heap, parted
-from bikestab.scan.writer import VolumeWriter, new_volume
+from bikestab.scanning.cluster import on_cluster, versions
+from bikestab.scanning.crosscheck import Agreement
+from bikestab.scanning.plan import FIELDS, Plan
+from bikestab.scanning.processes import in_processes, in_turn
+from bikestab.scanning.sheets import Atlas
+from bikestab.scanning.spool import NO_SPACE, Spool, removed
+from bikestab.scanning.tile import Columns, Finished, keep_heap, parted
+from bikestab.scanning.writer import VolumeWriter, new_volume
 from bikestab.units import shown
 from bikestab.volume import Volume, parameters_text
 

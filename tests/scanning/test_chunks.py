@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
-from bikestab.scan.chunks import packed, places
+from bikestab.scanning.chunks import packed, places
 
 CASES = [
     ((7, 5, 11), (7, 5, 11)),

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 
 from bikestab.bicycle import Bicycle
+from bikestab.branches import BRANCHES, NAMES, follow
 from bikestab.errors import InputError
 from bikestab.model import characteristic_table
-from bikestab.modes import BRANCHES, NAMES, follow
 from tests.strategies import lams, machines, sigmas
 from tests.test_model import TWO_MASS_SKATE
 

@@ -7,9 +7,9 @@ from contextlib import suppress
 import pytest
 
 from bikestab.errors import InputError
-from bikestab.scan import spool as spools
-from bikestab.scan.spool import Spool
-from tests.scan.test_spool import IDENTITY, NOTES, PATH, data_of, fill, kept
+from bikestab.scanning import spool as spools
+from bikestab.scanning.spool import Spool
+from tests.scanning.test_spool import IDENTITY, NOTES, PATH, data_of, fill, kept
 
 pytestmark = pytest.mark.usefixtures("in_an_empty_folder")
 
