@@ -18,9 +18,8 @@ from bikestab.bicycle import Bicycle
 from bikestab.config.scanconfig import Axis
 from bikestab.model import Floats, Model
 from bikestab.paper1981.box import LAM, SIGMA, V
-from bikestab.plot.axes import HALO, LABELS, label_axes
+from bikestab.plot.axes import HALO, LABELS, SYMBOLS, label_axes
 from bikestab.plot.region import draw_mesh
-from bikestab.plot.slices import SYMBOLS
 from bikestab.region.mesh import Mesh
 from bikestab.region.section import IN_PLANE, Section, edge_curves, zero_curves
 from bikestab.routh import CONDITIONS, conditions

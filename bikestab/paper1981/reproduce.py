@@ -23,7 +23,7 @@ from bikestab.paper1981.readings import sensitivity
 from bikestab.paper1981.refinement import refinement
 from bikestab.paper1981.report import rendered
 from bikestab.plot.designs import draw_designs
-from bikestab.plot.slices import save
+from bikestab.plot.files import save
 from bikestab.region.curves import trace
 from bikestab.region.mesh import region_mesh
 

@@ -12,6 +12,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.model import Model
 
 LABELS = {"lam": "steering-axis tilt λ [rad]", "sigma": "trail / wheelbase σ", "V": "speed V [m/s]"}
+SYMBOLS = {"lam": "λ", "sigma": "σ", "V": "V"}
 HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
 
 

@@ -11,13 +11,13 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, PowerNorm
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from bikestab.design.best import Best
 from bikestab.design.criteria import Wanted, counted
 from bikestab.model import Floats
 from bikestab.plot.axes import HALO, label_axes, remarks
+from bikestab.plot.lines import draw_on_white, entry, legend_below
 
 # the upper part of cividis: blue is narrow, yellow is wide, and black lines can be read on all of it
 WIDTH = ListedColormap(colormaps["cividis"](np.linspace(0.3, 1, 256)), name="width")
@@ -65,9 +65,7 @@ def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Fi
     handles += _curves(ax, curves)
     handles += _optima(ax, best)
     label_axes(ax, "lam", "sigma", wanted.bicycle.c)
-    figure.legend(
-        handles=handles, loc="outside lower center", ncols=3, handlelength=2.8, frameon=False, fontsize=9
-    )
+    legend_below(figure, handles, handlelength=2.8, fontsize=9)
     ax.set_title(
         f"{wanted.bicycle.name}{remarks(wanted.bicycle, wanted.model)}: "
         f"widest interval of stable speeds up to {wanted.V_max:g} m/s",
@@ -77,21 +75,18 @@ def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Fi
 
 
 def _widths(figure: Figure, ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> list[Any]:
+    """Colours, and lines of equal V1 and V2, of each design's widest interval; entries of the legend."""
     X, Y = np.meshgrid(x, y)
-    found = counted(replace(wanted, stable=None), wanted.table(np.stack([X, Y])))
-    widest = np.argmax(found.width, axis=-1)[..., np.newaxis]
+    designs = counted(replace(wanted, stable=None), wanted.table(np.stack([X, Y])))
+    widest = np.argmax(designs.width, axis=-1)[..., np.newaxis]
     width, V1, V2 = (
         np.take_along_axis(values, widest, axis=-1)[..., 0]
-        for values in (found.width, found.intervals.V1, found.intervals.V2)
+        for values in (designs.width, designs.intervals.V1, designs.intervals.V2)
     )
     some = width > 0
     handles: list[Any] = []
     if some.any():
-        image = ax.pcolormesh(
-            x, y, np.ma.masked_where(~some, width), cmap=WIDTH, shading="nearest", rasterized=True,
-            norm=PowerNorm(0.5, vmin=0, vmax=float(width.max())),  # most widths are far below the cap
-        )  # fmt: skip
-        figure.colorbar(image, ax=ax, pad=0.02).set_label("width of the widest stable interval [m/s]")
+        _colour(figure, ax, x, y, width)
         capped = some & (wanted.V_max < V2)
         if capped.any():
             _hatch(ax, x, y, capped, "..", "0.35")
@@ -100,27 +95,42 @@ def _widths(figure: Figure, ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> l
             (np.where(some, V1, np.nan), "-", "V₁ [m/s]"),
             (np.where(some & ~capped, V2, np.nan), (0, (5, 2)), "V₂ [m/s]"),
         ):
-            if _contours(ax, x, y, _cut(values), dashes):
-                handles.append(Line2D([], [], color="black", lw=1, ls=dashes, label=label))
+            if _contours(ax, x, y, _without_jumps(values), dashes):
+                handles.append(entry(label, color="black", lw=1, ls=dashes))
     else:
         ax.text(
             0.5, 0.5, f"no stable speed below {wanted.V_max:g} m/s", transform=ax.transAxes, ha="center",
             path_effects=HALO,
         )  # fmt: skip
+    handles += _refused(ax, wanted, x, y)
+    if not some.all():
+        handles.append(Patch(facecolor="white", edgecolor="0.5", lw=0.6, label="no stable speed"))
+    return handles
+
+
+def _colour(figure: Figure, ax: Axes, x: Floats, y: Floats, width: Floats) -> None:
+    image = ax.pcolormesh(
+        x, y, np.ma.masked_where(width <= 0, width), cmap=WIDTH, shading="nearest", rasterized=True,
+        norm=PowerNorm(0.5, vmin=0, vmax=float(width.max())),  # most widths are far below the cap
+    )  # fmt: skip
+    figure.colorbar(image, ax=ax, pad=0.02).set_label("width of the widest stable interval [m/s]")
+
+
+def _refused(ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> list[Any]:
+    """Hatches over the designs that are not as asked for; what the legend says of them."""
+    X, Y = np.meshgrid(x, y)
     low, high = wanted.box
     refused = (low[1] > Y) | (high[1] < Y)
     if wanted.stable:
         refused |= ~counted(wanted, wanted.table(np.stack([X, Y]))).any
-    if refused.any():
-        ax.contourf(x, y, refused.astype(float), levels=[0.5, 1.5], colors=["white"], alpha=0.55)
-        _hatch(ax, x, y, refused, "////", "0.45")
-        A, B = wanted.stable or (0.0, 0.0)
-        asked = [f"not stable from {A:g} to {B:g} m/s"] if wanted.stable else []
-        asked += ["other trail"] if low[1] > wanted.sigma[0] or high[1] < wanted.sigma[1] else []
-        handles.append(_patch("////", "0.45", " or ".join(asked), "0.92"))
-    if not some.all():
-        handles.append(Patch(facecolor="white", edgecolor="0.5", lw=0.6, label="no stable speed"))
-    return handles
+    if not refused.any():
+        return []
+    ax.contourf(x, y, refused.astype(float), levels=[0.5, 1.5], colors=["white"], alpha=0.55)
+    _hatch(ax, x, y, refused, "////", "0.45")
+    A, B = wanted.stable or (0.0, 0.0)
+    asked = [f"not stable from {A:g} to {B:g} m/s"] if wanted.stable else []
+    asked += ["other trail"] if low[1] > wanted.sigma[0] or high[1] < wanted.sigma[1] else []
+    return [_patch("////", "0.45", " or ".join(asked), "0.92")]
 
 
 def _hatch(ax: Axes, x: Floats, y: Floats, where: Any, pattern: str, color: str) -> None:
@@ -133,8 +143,8 @@ def _patch(pattern: str, color: str, label: str, face: Any) -> Patch:
     return Patch(facecolor=face, hatch=pattern, edgecolor=color, lw=0, label=label)
 
 
-def _cut(values: Floats) -> Floats:
-    """Without the samples at a jump from one interval to another, along which contours would pile up."""
+def _without_jumps(values: Floats) -> Floats:
+    """NaN for the samples at a jump from one interval to another, along which contours would pile up."""
     steps = [np.abs(np.diff(values, axis=axis)) for axis in (0, 1)]
     result = values.copy()
     for axis, step in enumerate(steps):
@@ -164,12 +174,11 @@ def _contours(ax: Axes, x: Floats, y: Floats, values: Floats, dashes: Any) -> bo
 
 
 def _curves(ax: Axes, curves: Sequence[Curve]) -> list[Any]:
-    names: dict[str, tuple[str, Any]] = {}
+    styles: dict[str, tuple[str, Any]] = {}
     for curve in curves:
-        color, dashes = names.setdefault(curve.name, CURVES.get(curve.name, _OTHER))
-        ax.plot(curve.lam, curve.sigma, color="white", lw=3.4, alpha=0.8, solid_capstyle="round", zorder=3)
-        ax.plot(curve.lam, curve.sigma, color=color, lw=1.9, ls=dashes, zorder=3)
-    return [Line2D([], [], color=c, lw=1.9, ls=dashes, label=name) for name, (c, dashes) in names.items()]
+        color, dashes = styles.setdefault(curve.name, CURVES.get(curve.name, _OTHER))
+        draw_on_white(ax, [(curve.lam, curve.sigma)], lw=1.9, color=color, ls=dashes, zorder=3)
+    return [entry(name, lw=1.9, color=color, ls=dashes) for name, (color, dashes) in styles.items()]
 
 
 def _optima(ax: Axes, best: Best) -> list[Any]:

@@ -17,6 +17,7 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 from bikestab.config.scanconfig import AXES
 from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, remarks
+from bikestab.plot.lines import legend_below
 from bikestab.region.mesh import Mesh, region_mesh
 from bikestab.speeds import CAPSIZE, WEAVE
 from bikestab.volume import Volume
@@ -35,7 +36,7 @@ def draw_region(volume: Volume) -> Figure:
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     if handles := draw_mesh(ax, mesh, box):
-        figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False)
+        legend_below(figure, handles, ncols=2, handlelength=2)
     bicycle = volume.bicycle
     heading = f"{volume.title}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
     ax.set_title(heading, fontsize=10)

@@ -130,7 +130,7 @@ def command(
         files["front"] = written(csv_file, lambda path: _write_csv(best.pareto, path))
     if output:
         from bikestab.plot.designs import draw_designs
-        from bikestab.plot.slices import save
+        from bikestab.plot.files import save
         from bikestab.region.curves import trace
 
         figure = draw_designs(wanted, best, trace(bicycle, lam, sigma, model=model))

@@ -97,8 +97,8 @@ def command(
     if csv_file:
         files["csv"] = written(csv_file, lambda path: _write_csv(modes, path))
     if output:
+        from bikestab.plot.files import save
         from bikestab.plot.modes import draw_modes
-        from bikestab.plot.slices import save
 
         figure = draw_modes(bicycle, lam, sigma, min(speeds), max(speeds), model=model)
         files["picture"] = written(output, lambda path: save(figure, path))

@@ -131,8 +131,9 @@ def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:
 
 
 def _draw_machine(config: ScanConfig, volume: Volume, values: dict[str, float]) -> list[Path]:
+    from bikestab.plot.files import save, slice_name
     from bikestab.plot.region import draw_region
-    from bikestab.plot.slices import draw_slice, on_grid, save, slice_name
+    from bikestab.plot.slices import draw_slice, on_grid
 
     pictures = []
     folder = volume.path.parent

@@ -38,7 +38,8 @@ def command(
       bikestab slice out/quick --lam 0.2
       bikestab slice out/quick/volume.h5 --V 18km/h -o speed.png
     """
-    from bikestab.plot.slices import draw_slice, on_grid, save, slice_name
+    from bikestab.plot.files import save, slice_name
+    from bikestab.plot.slices import draw_slice, on_grid
     from bikestab.volume import Volume
 
     given = {name: value for name, value in (("lam", lam), ("sigma", sigma), ("V", V)) if value is not None}

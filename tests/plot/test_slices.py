@@ -5,14 +5,14 @@ import functools
 import numpy as np
 import pytest
 from matplotlib.collections import QuadMesh
-from matplotlib.figure import Figure
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.config.file import parse_config
 from bikestab.errors import InputError
 from bikestab.model import characteristic_table
-from bikestab.plot.slices import draw_slice, save, slice_name
+from bikestab.plot.files import save
+from bikestab.plot.slices import draw_slice
 from bikestab.routh import conditions
 from bikestab.scanning.run import run_scan
 from bikestab.spectrum import growth_rate_of
@@ -204,15 +204,7 @@ def test_curves_end_where_stability_does(draw):
             assert other == name or np.all(value > 0)
 
 
-# --- files
-
-
-@pytest.mark.parametrize(
-    ("name", "start"), [("a.png", b"\x89PNG"), ("a.pdf", b"%PDF"), ("a.svg", b"<?xml"), ("a.PNG", b"\x89PNG")]
-)
-def test_formats(tmp_path, name, start):
-    save(Figure(), tmp_path / name)
-    assert (tmp_path / name).read_bytes().startswith(start)
+# --- requests
 
 
 def test_the_same_picture_twice(volume, draw, tmp_path):
@@ -221,31 +213,9 @@ def test_the_same_picture_twice(volume, draw, tmp_path):
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
-def test_an_unknown_format(tmp_path):
-    with pytest.raises(InputError, match=r"a\.pgn: Format 'pgn' is not supported\ndid you mean 'png'"):
-        save(Figure(), tmp_path / "a.pgn")
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_folder_that_is_not_there(tmp_path):
-    with pytest.raises(InputError, match=r"cannot be written \(No such file or directory\)"):
-        save(Figure(), tmp_path / "none" / "a.png")
-
-
 @pytest.mark.parametrize(
     ("fixed", "value"), [("lam", 0.31), ("sigma", -0.001), ("V", 15.1), ("V", float("nan"))]
 )
 def test_a_plane_outside_the_volume(volume, fixed, value):
     with pytest.raises(InputError, match=r"is outside the volume\nallowed: 0 \.\.\. "):
         draw_slice(volume, fixed, value)
-
-
-def test_names_of_files():
-    assert slice_name({"lam": 0.2}) == "slice_lam_0.2.png"
-    assert slice_name({"V": 5.0}) == "slice_V_5.png"
-    assert slice_name({"sigma": 0.0784313725}) == "slice_sigma_0.0784313725.png"
-    assert slice_name({"lam": np.float64(0.2)}) == "slice_lam_0.2.png"
-
-
-def test_two_planes_have_two_names():
-    assert slice_name({"sigma": 0.07843137}) != slice_name({"sigma": 0.07843138})
