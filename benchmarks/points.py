@@ -23,7 +23,7 @@ from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.notation import MEIJAARD
 from bikestab.routh import conditions, violated
 from bikestab.scanning.signs import violated_between
-from bikestab.scanning.tile import Tile, _field, compute
+from bikestab.scanning.tile import Tile, compute, field_values
 from bikestab.speeds import critical
 from bikestab.units import ANGLE, PURE, quantity
 
@@ -43,14 +43,14 @@ def masks(t: Tile) -> NDArray[np.uint8]:
     """``violated`` (cell, V) of a tile and, to be timed as well, ``stable``."""
     table = characteristic_table(t.bicycle, t.lam[:, np.newaxis], t.sigma).reshape(5, 4, -1)
     mask = violated_between(table, critical(table), t.V)
-    _field("stable", table, t, mask)
+    field_values("stable", table, t, mask)
     return mask
 
 
 def growth(t: Tile) -> NDArray[np.float32]:
     """``growth_rate`` of a tile."""
     table = characteristic_table(t.bicycle, t.lam[:, np.newaxis], t.sigma).reshape(5, 4, -1)
-    return _field("growth_rate", table, t, np.empty((len(t.lam) * len(t.sigma), len(t.V)), np.uint8))
+    return field_values("growth_rate", table, t, np.empty((len(t.lam) * len(t.sigma), len(t.V)), np.uint8))
 
 
 @dataclass

@@ -19,7 +19,7 @@ import numpy as np
 from command import ALL, MASKS, Run, scan
 from common import DELTA, Aim, Report, Table, short
 
-from bikestab.scanning.plan import FIELDS
+from bikestab.fields import FIELDS
 
 SIZES = (64, 128, 256, 512)  # points along each axis
 AIMED = 512  # of the scan that aims are set for
@@ -38,7 +38,7 @@ PARTS = {
 def written(folder: Path, size: int, fields: tuple[str, ...], chunked: bool) -> float:
     """Seconds to write fields of that many points along each axis uncompressed with h5py."""
     path = folder / "plain.h5"
-    values = {name: np.ones((size,) * 3, FIELDS[name][0]) for name in fields}
+    values = {name: np.ones((size,) * 3, FIELDS[name].dtype) for name in fields}
     path.unlink(missing_ok=True)
     os.sync()
     start = time.perf_counter()

@@ -85,7 +85,7 @@ def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
         clock.around(tiles, "check", "evaluation: the check")
         clock.around(tiles, "_columns", "evaluation: intervals")
         clock.around(
-            tiles, "_field",
+            tiles, "field_values",
             lambda name, *_: f"evaluation: {name if name == 'growth_rate' else 'stable, violated'}",
         )  # fmt: skip
         clock.around(tiles, "packed", "compression")

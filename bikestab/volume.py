@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
-from bikestab.config.scanconfig import Axis
 from bikestab.errors import InputError, nearest
+from bikestab.fields import FIELDS, Axis
 from bikestab.model import Floats, Model
-from bikestab.scanning.plan import FIELDS
 
 
 class Volume:

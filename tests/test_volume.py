@@ -9,7 +9,7 @@ import pytest
 
 from bikestab import __version__
 from bikestab.bicycle import Bicycle
-from bikestab.config.scanconfig import AXES
+from bikestab.fields import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scanning.run import run_scan

@@ -8,8 +8,8 @@ import h5py
 import numpy as np
 import pytest
 
-from bikestab.config.scanconfig import AXES
 from bikestab.errors import InputError
+from bikestab.fields import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.run import run_scan

@@ -12,9 +12,10 @@ from pydantic import ValidationError
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
-from bikestab.config.scanconfig import AXES, Expectation, Plane, ScanConfig
+from bikestab.config.scanconfig import Expectation, Plane, ScanConfig
 from bikestab.config.variation import Distribution, Ensemble
 from bikestab.errors import InputError, dotted, nearest
+from bikestab.fields import AXES
 from bikestab.units import shown
 
 

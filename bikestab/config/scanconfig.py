@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
 
@@ -35,14 +35,23 @@ from bikestab.config.variation import (
     members,
     swept_axes,
 )
-from bikestab.errors import InputError
+from bikestab.errors import InputError, nearest
+from bikestab.fields import Axis, askable
 from bikestab.model import Floats, Model
 from bikestab.notation import MEIJAARD
 from bikestab.units import shown
 
-Axis = Literal["lam", "sigma", "V"]
-AXES: tuple[Axis, Axis, Axis] = ("lam", "sigma", "V")
-FieldName = Literal["stable", "violated", "growth_rate", "conditions"]
+
+def _field(value: object) -> str:
+    if isinstance(value, str) and value in askable():
+        return str(value)
+    hint = nearest(value, askable()) if isinstance(value, str) else f"known: {', '.join(askable())}"
+    raise mistake(f"{shown(value)} is not known", hint)
+
+
+FieldName: TypeAlias = Annotated[
+    str, BeforeValidator(_field), WithJsonSchema({"type": "string", "enum": askable()})
+]
 
 
 class Grid(Strict):

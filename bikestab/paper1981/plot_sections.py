@@ -15,7 +15,7 @@ from matplotlib.patheffects import TickedStroke
 from mpl_toolkits.mplot3d import Axes3D
 
 from bikestab.bicycle import Bicycle
-from bikestab.config.scanconfig import Axis
+from bikestab.fields import Axis
 from bikestab.model import Floats, Model
 from bikestab.paper1981.box import LAM, SIGMA, V
 from bikestab.plot.axes import HALO, LABELS, SYMBOLS, label_axes

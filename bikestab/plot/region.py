@@ -14,7 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
-from bikestab.config.scanconfig import AXES
+from bikestab.fields import AXES
 from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, remarks
 from bikestab.plot.lines import legend_below

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from bikestab.config.scanconfig import AXES, Axis
 from bikestab.errors import InputError
+from bikestab.fields import AXES, Axis
 from bikestab.model import Floats
 from bikestab.plot.axes import SYMBOLS, head_angle, label_axes, remarks
 from bikestab.plot.colours import GROWTH, colour_growth_rate, colour_probability

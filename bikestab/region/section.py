@@ -9,7 +9,7 @@ import numpy as np
 from contourpy import contour_generator
 
 from bikestab.bicycle import Bicycle
-from bikestab.config.scanconfig import Axis
+from bikestab.fields import Axis
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import condition_polynomials, conditions
 

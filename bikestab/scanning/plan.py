@@ -9,20 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from bikestab.config.scanconfig import AXES, ScanConfig
-from bikestab.routh import CONDITIONS
+from bikestab.config.scanconfig import ScanConfig
+from bikestab.fields import AXES, FIELDS
 from bikestab.scanning.tile import Tile
 
-FIELDS: dict[str, tuple[type[np.generic], str, str]] = {  # dtype, unit, meaning
-    "stable": (np.uint8, "1", "rectilinear motion is asymptotically stable"),
-    "violated": (np.uint8, "1", "conditions of stability that do not hold"),
-    "growth_rate": (np.float32, "s-1", "largest real part of the eigenvalues"),
-    "probability": (np.float32, "1", "share of the ensemble's machines that are stable"),
-    **{name: (np.float64, "", f"left side of the condition {name} > 0") for name in CONDITIONS},
-}
-# ns per point, µs per (λ, σ), per (λ, σ) and sample; on one core
-_COSTS = {"stable": 1, "violated": 1, "growth_rate": 55, "probability": 0}
-_COLUMN, _SAMPLE = 2.0, 1.0
+_COLUMN, _SAMPLE = 2.0, 1.0  # µs per (λ, σ), per (λ, σ) and sample; on one core
 _TILE_BYTES = 1 << 24  # of a tile's fields before compression
 
 
@@ -39,10 +30,8 @@ class Plan:
     @cached_property
     def fields(self) -> tuple[str, ...]:
         """The fields that the volume holds, in the file's order."""
-        wanted = set(self.config.fields) | (set(CONDITIONS) if "conditions" in self.config.fields else set())
-        if self.config.ensemble:
-            wanted.add("probability")
-        return tuple(name for name in FIELDS if name in wanted)
+        asked = {*self.config.fields, *([""] if self.config.ensemble else [])}
+        return tuple(name for name, field in FIELDS.items() if field.asked in asked)
 
     @cached_property
     def lead(self) -> tuple[int, ...]:
@@ -69,7 +58,7 @@ class Plan:
     def tile(self) -> tuple[int, int, int]:
         """The largest tile."""
         n, m, _ = map(min, (16, 16, 1) if self.config.ensemble else (64, 128, 1), self.config.grid.shape)
-        each = sum(np.dtype(FIELDS[name][0]).itemsize for name in self.fields)
+        each = sum(np.dtype(FIELDS[name].dtype).itemsize for name in self.fields)
         chunk = self.chunk[2]
         speeds = max(1, _TILE_BYTES // (n * m * each) // chunk) * chunk
         return tuple(map(min, (n, m, speeds), self.config.grid.shape))  # type: ignore[return-value]  # three
@@ -128,5 +117,5 @@ class Plan:
         """About how long one core takes."""
         columns = self.points / self.shape[-1]
         samples = self.config.ensemble.samples if self.config.ensemble else 0
-        each = sum(_COSTS.get(name, 10) for name in self.fields)
+        each = sum(FIELDS[name].cost for name in self.fields)
         return 1e-9 * each * self.points + 1e-6 * columns * (_COLUMN + _SAMPLE * samples)

@@ -15,12 +15,13 @@ from typing import Any
 import numpy as np
 
 from bikestab import yamltext
-from bikestab.config.scanconfig import AXES, ScanConfig
+from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import KEPT, InputError, ScanError, dotted
+from bikestab.fields import AXES, FIELDS
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.cluster import on_cluster, versions
 from bikestab.scanning.crosscheck import Agreement
-from bikestab.scanning.plan import FIELDS, Plan
+from bikestab.scanning.plan import Plan
 from bikestab.scanning.processes import in_processes, in_turn
 from bikestab.scanning.sheets import Atlas
 from bikestab.scanning.spool import NO_SPACE, Spool, removed
@@ -30,12 +31,6 @@ from bikestab.units import shown
 from bikestab.volume import Volume, parameters_text
 
 MOST_VALUES = 4_000_000  # of an axis
-_PACKED = {
-    "stable": 20,
-    "violated": 20,
-    "probability": 4,
-    "growth_rate": 1.3,
-}  # at least so many times smaller
 _COLUMN_BYTES = 100  # in the file, of the intervals and sheets of one (λ, σ)
 _START = 1.0  # s of one core's work for each process that is started
 
@@ -214,7 +209,7 @@ def check_size(config: ScanConfig) -> None:
     key = ("grid", largest, "num" if hasattr(axis, "num") else "values")
     if max(shape) > MOST_VALUES:
         raise InputError(f"{max(shape)} values are too many", key=key, hint=f"allowed: up to {MOST_VALUES}")
-    each = sum(np.dtype(FIELDS[name][0]).itemsize / _PACKED.get(name, 1) for name in plan.fields)
+    each = sum(np.dtype(FIELDS[name].dtype).itemsize / FIELDS[name].packing for name in plan.fields)
     needed = each * float(plan.points) + _COLUMN_BYTES * float(plan.points / shape[-1])
     folder = Path(config.output).absolute()
     try:

@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import ScanError
+from bikestab.fields import FIELDS, Points
 from bikestab.model import Floats, Model, characteristic_table
-from bikestab.routh import CONDITIONS, condition
+from bikestab.routh import CONDITIONS
 from bikestab.scanning.chunks import packed
 from bikestab.scanning.crosscheck import AGREEMENT, Agreement, check
 from bikestab.scanning.ensemble import ensemble_statistics
 from bikestab.scanning.sheets import Roots, most_roots
 from bikestab.scanning.signs import violated_between
-from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import Critical, Intervals, critical, intervals_between
 
 if TYPE_CHECKING:
@@ -110,14 +110,10 @@ def compute(tile: Tile) -> Finished:
     if agreement.largest > AGREEMENT:
         raise _disagreement(agreement)
     notes = {"stable_points": int(np.count_nonzero(mask == 0)), "agreement": agreement}
-    spread = np.empty((*tile.shape[:2], 0))
+    probability, spread = _ensemble(tile) if tile.ensemble else (None, np.empty((*tile.shape[:2], 0)))
     chunks = []
     for name in tile.fields:
-        if name == "probability":
-            values, spread = _ensemble(tile)
-        else:
-            values = _field(name, table, tile, mask)
-        chunks += packed(values, tile.chunk)
+        chunks += packed(field_values(name, table, tile, mask, probability), tile.chunk)
     columns = b""
     if tile.columns:
         found = _columns(table, exact, spread)
@@ -150,32 +146,36 @@ def parted(data: bytes) -> list[memoryview]:
     return [view[start:end] for start, end in zip([8 * (number + 1), *ends[:-1]], ends, strict=True)]
 
 
-def _field(name: str, table: Floats, tile: Tile, mask: NDArray[np.uint8]) -> NDArray:
-    if name == "violated":
-        return mask.reshape(tile.shape)
-    if name == "stable":
-        return (mask == 0).view(np.uint8).reshape(tile.shape)
-    out = np.empty(mask.shape, np.float32 if name == "growth_rate" else np.float64)
+def field_values(
+    name: str,
+    table: Floats,
+    tile: Tile,
+    mask: NDArray[np.uint8],
+    probability: NDArray[np.float32] | None = None,
+) -> NDArray:
+    """A field at a tile's points, from its table (5, 4, cell), mask and probability (cell, V); (λ, σ, V)."""
+    field = FIELDS[name]
+    out = np.empty(mask.shape, field.dtype)
     speeds = min(len(tile.V), 256)
     cells = max(1, _POINTS // speeds)
     for i in range(0, len(out), cells):
         part = table[:, :, i : i + cells, np.newaxis]
         for k in range(0, len(tile.V), speeds):
-            V = tile.V[k : k + speeds]
-            values = growth_rate_of(part, V) if name == "growth_rate" else condition(part, name, V)
-            out[i : i + cells, k : k + speeds] = values
+            at = np.s_[i : i + cells, k : k + speeds]
+            share = None if probability is None else probability[at]
+            out[at] = field.values(Points(part, tile.V[k : k + speeds], mask[at], share))
     return out.reshape(tile.shape)
 
 
 def _ensemble(tile: Tile) -> tuple[NDArray[np.float32], Floats]:
-    """The probability at each point, and the spread of ``Columns``."""
+    """The probability at each point (cell, V), and the spread of ``Columns``."""
     assert tile.ensemble is not None
     n, m, _ = tile.shape
     machines, quantiles = tile.ensemble.machines(tile.bicycle), tile.ensemble.quantiles
     lam, sigma = np.repeat(tile.lam, m), np.tile(tile.sigma, n)
     found = ensemble_statistics(machines, lam, sigma, tile.V, tile.model, quantiles)
     spread = np.column_stack([found.somewhere, found.unbounded, found.V1, found.V2])
-    return found.probability.reshape(tile.shape), spread.reshape(n, m, -1)
+    return found.probability, spread.reshape(n, m, -1)
 
 
 def _columns(table: Floats, exact: Critical, spread: Floats) -> Columns:

@@ -17,22 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab import __version__
-from bikestab.config.scanconfig import AXES
+from bikestab.fields import AXES, COORDINATES, FIELDS, Field
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.chunks import packed, places
 from bikestab.scanning.crosscheck import Agreement
-from bikestab.scanning.plan import FIELDS, Plan
+from bikestab.scanning.plan import Plan
 from bikestab.scanning.sheets import Sheets
 from bikestab.scanning.sink import Sink
 from bikestab.speeds import KINDS, Intervals, widened
 from bikestab.volume import parameters_text, uniform
-
-_AXIS_TEXT = {
-    "lam": ("rad", "tilt of the steering axis from the vertical, top backwards"),
-    "sigma": ("1", "trail divided by the wheelbase"),
-    "V": ("m s-1", "forward speed"),
-}
 
 
 @contextmanager
@@ -79,18 +73,9 @@ class VolumeWriter:
         if self._lead:
             self._machines()
         for axis in AXES:
-            self._scale(axis, plan.config.grid.values(axis), *_AXIS_TEXT[axis])
+            self._scale(axis, plan.config.grid.values(axis), *COORDINATES[axis])
         for name in plan.fields:
-            dtype, unit, text = FIELDS[name]
-            self._create(name, AXES, dtype, plan.chunk, unit, text)
-        if "stable" in plan.fields:
-            _flags(self.file["stable"], ("unstable", "stable"))
-        if "violated" in plan.fields:
-            masks = np.array([1 << bit for bit in range(len(CONDITIONS))], np.uint8)
-            self.file["violated"].attrs["flag_masks"] = masks
-            self.file["violated"].attrs["flag_meanings"] = _ascii(
-                *(f"{name}_not_positive" for name in CONDITIONS)
-            )
+            self._field(FIELDS[name])
 
     def _attributes(self) -> None:
         config = self.plan.config
@@ -124,6 +109,14 @@ class VolumeWriter:
             data.dims[i].attach_scale(self.file[axis])
         _describe(data, "", "parameters of each machine in SI units, in the order of the attribute 'names'")
         data.attrs["names"] = _ascii(*self.plan.config.machine.numbers())
+
+    def _field(self, field: Field) -> None:
+        data = self._create(field.name, AXES, field.dtype, self.plan.chunk, field.unit, field.meaning)
+        if field.flags:
+            _flags(data, field.flags)
+        if field.masks:
+            data.attrs["flag_masks"] = np.array([1 << bit for bit in range(len(field.masks))], field.dtype)
+            data.attrs["flag_meanings"] = _ascii(*field.masks)
 
     def write_fields(self, place: tuple[int, ...], shape: tuple[int, ...], chunks: list[memoryview]) -> None:
         """Put a tile's chunks into the fields; ``place`` is its first index, ``shape`` its own."""
@@ -260,7 +253,7 @@ def _ascii_unit(unit: str) -> str:
 
 
 def _flags(data: h5py.Dataset, meanings: tuple[str, ...]) -> None:
-    data.attrs["flag_values"] = np.arange(len(meanings), dtype=np.uint8)
+    data.attrs["flag_values"] = np.arange(len(meanings), dtype=data.dtype)
     data.attrs["flag_meanings"] = _ascii(*meanings)
 
 

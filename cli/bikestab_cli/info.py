@@ -57,7 +57,7 @@ def command(volume: str, show_config: bool, as_json: bool) -> None:
 def _summary(volume: Any) -> dict[str, Any]:
     import numpy as np
 
-    from bikestab.config.scanconfig import AXES
+    from bikestab.fields import AXES
     from bikestab.volume import uniform
 
     file = volume.file

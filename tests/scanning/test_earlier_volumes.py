@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from bikestab.config.file import load_config
-from bikestab.scan.cluster import versions
-from bikestab.scan.run import run_scan
+from bikestab.scanning.cluster import versions
+from bikestab.scanning.run import run_scan
 
 FOLDER = Path(__file__).parents[1] / "references" / "volumes"
 BUILD = json.loads((FOLDER / "build.json").read_text())
 NAMES = sorted(path.stem for path in FOLDER.glob("*.h5"))
 SAME_PROCESSOR = versions()["processor"] == BUILD["processor"]
-OTHER_PROCESSOR = 1e-9  # relative: numpy's vector instructions round differently; an error of 1e-16 grows at folds
+OTHER_PROCESSOR = 1e-9  # relative: numpy's vector instructions round differently, which grows at folds
 ADDED: set[str] = set()  # datasets that the earlier build did not write
 DIFFERENT = {"config_sha256", "bikestab_version", "source"}  # what an attribute of the file may differ in
 HANDLES = {"REFERENCE_LIST", "DIMENSION_LIST"}  # of HDF5 itself; dims are compared by name

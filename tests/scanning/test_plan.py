@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from bikestab import yamltext
 from bikestab.config.file import parse_config
-from bikestab.config.scanconfig import AXES
+from bikestab.fields import AXES, FIELDS
 from bikestab.routh import CONDITIONS
 from bikestab.scanning import plan as plans
-from bikestab.scanning.plan import FIELDS, Plan
+from bikestab.scanning.plan import Plan
 
 ALL_FIELDS = "fields: [conditions, growth_rate, violated, stable]\n"
 
@@ -111,7 +111,7 @@ def test_fields_are_in_the_order_of_the_file():
 
 def bytes_of(plan):
     """The largest tile's fields before compression."""
-    sizes = [np.dtype(FIELDS[name][0]).itemsize for name in plan.fields]
+    sizes = [np.dtype(FIELDS[name].dtype).itemsize for name in plan.fields]
     return max(int(np.prod(plan[number].shape)) for number in (0, len(plan) - 1)) * sum(sizes)
 
 

@@ -10,8 +10,8 @@ import h5py
 import numpy as np
 import pytest
 
-from bikestab.config.scanconfig import AXES
 from bikestab.errors import InputError, ScanError
+from bikestab.fields import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scanning import plan
