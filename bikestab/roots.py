@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from bikestab.model import Floats
+from bikestab.polynomials import derivative, used_powers, value, value_and_slope
 
 _CHUNK = 1 << 13  # cells worked on at a time: a polynomial of degree 6 and its temporaries fit the L2 cache
 _CLOSE = 1e-13  # last relative step to a root; Newton's next one would be far below rounding
@@ -42,7 +43,7 @@ def sign_near_zero(coefficients: Floats) -> Floats:
 
 
 def _solve(c: Floats) -> Floats:
-    used = [j for j in range(len(c)) if np.any(c[j])]
+    used = used_powers(c)
     if len(used) < 2:
         return np.empty((0, c.shape[1]))
     step = int(np.gcd.reduce(np.diff(used)))  # the conditions without damping depend on V² alone
@@ -109,9 +110,9 @@ def _sign_changes(c: Floats, lo: Floats, hi: Floats, close: float) -> tuple[Floa
             root = -c[0] / c[1]
         inside = (root > lo) & (root < hi)
         return np.where(inside, root, hi)[np.newaxis], inside[np.newaxis]
-    slope = c[1:] * np.arange(1, n + 1)[:, np.newaxis]
+    slope = derivative(c)
     knots = np.concatenate([lo[np.newaxis], _sign_changes(slope, lo, hi, _CLOSE_SLOPE)[0], hi[np.newaxis]])
-    sign = np.sign(_horner(c, knots))
+    sign = np.sign(value(c, knots))
     for i in range(1, n + 1):  # a zero at a knot belongs to the bracket on its right
         sign[i] = np.where(sign[i] == 0, sign[i - 1], sign[i])
     found = sign[:-1] * sign[1:] < 0
@@ -132,7 +133,7 @@ def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> F
     active = np.ones(len(a), bool)
     x = np.sqrt(a * b)
     while len(cell):
-        f, slope = _value_and_slope(c, x)
+        f, slope = value_and_slope(c, x)
         right = f * sign_b > 0
         b = np.where(right, x, b)
         a = np.where(right, a, x)
@@ -147,18 +148,3 @@ def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> F
             cell, a, b, x, sign_b = (v[active] for v in (cell, a, b, x, sign_b))
             c, active = c[:, active], active[active]
     return root
-
-
-def _value_and_slope(c: Floats, x: Floats) -> tuple[Floats, Floats]:
-    value, slope = c[-1] * x + c[-2], c[-1]
-    for cj in c[-3::-1]:
-        slope = slope * x + value
-        value = value * x + cj
-    return value, slope
-
-
-def _horner(c: Floats, x: Floats) -> Floats:
-    value = c[-1] * np.ones_like(x)
-    for cj in c[-2::-1]:
-        value = value * x + cj
-    return value

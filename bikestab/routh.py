@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.model import Floats
+from bikestab.polynomials import product, settled, value_of_powers
 
 CONDITIONS = ("p0", "p1", "p2", "p3", "p4", "hurwitz3")  # bit k of ``violated`` is CONDITIONS[k]
 
@@ -32,7 +32,7 @@ def coefficients_at(table: Floats, V: ArrayLike) -> tuple[Floats, Floats, Floats
     V = np.asarray(V, dtype=float)
     powers = np.any(table, axis=tuple(range(2, table.ndim)))  # powers of V that each row has in any cell
     shape = np.broadcast_shapes(table.shape[2:], V.shape)
-    p0, p1, p2, p3, p4 = (_polynomial(table[k], powers[k], V, shape) for k in range(5))
+    p0, p1, p2, p3, p4 = (value_of_powers(table[k], powers[k], V, shape) for k in range(5))
     return p0, p1, p2, p3, p4
 
 
@@ -54,7 +54,7 @@ def condition(table: Floats, name: str, V: ArrayLike) -> Floats:
         return conditions(table, V).hurwitz3
     V, row = np.asarray(V, dtype=float), table[CONDITIONS.index(name)]
     powers = np.any(row, axis=tuple(range(1, row.ndim)))
-    return _polynomial(row, powers, V, np.broadcast_shapes(row.shape[1:], V.shape))
+    return value_of_powers(row, powers, V, np.broadcast_shapes(row.shape[1:], V.shape))
 
 
 def violated(values: Conditions) -> NDArray[np.uint8]:
@@ -84,35 +84,5 @@ def condition_polynomials(table: Floats) -> dict[str, Floats]:
         + product(abs(p4), product(abs(p1), abs(p1)))
         + product(abs(p0), product(abs(p3), abs(p3)))
     )
-    hurwitz3 = first - second - third
-    hurwitz3[np.abs(hurwitz3) <= 64 * np.finfo(float).eps * size] = 0.0
+    hurwitz3 = settled(first - second - third, size)
     return {"p0": p0, "p1": p1, "p2": p2, "p3": p3, "p4": p4, "hurwitz3": hurwitz3}
-
-
-def _polynomial(row: Floats, powers: NDArray[np.bool_], V: Floats, shape: tuple[int, ...]) -> Floats:
-    """Horner's scheme along the first axis of ``row``, over the powers that some cell has."""
-    used = [j for j, some in enumerate(powers) if some] or [0]
-    value = row[used[-1]]
-    for high, low in pairwise(reversed(used)):
-        value = value * V ** (high - low)
-        value += row[low]
-    if used[0] > 0 and len(used) > 1:
-        value *= V ** used[0]
-    elif used[0] > 0:
-        value = value * V ** used[0]
-    return value if np.shape(value) == shape else np.broadcast_to(value, shape)
-
-
-def product(a: Floats, b: Floats) -> Floats:
-    """The product of two polynomials along the first axis."""
-    out = np.zeros((len(a) + len(b) - 1, *np.broadcast_shapes(a.shape[1:], b.shape[1:])))
-    for i in _used(a):
-        for j in _used(b):
-            out[i + j] += a[i] * b[j]
-    return out
-
-
-def _used(row: Floats) -> list[int]:
-    """The powers that some cell has; [0] where there are none."""
-    some = np.logical_or.reduce(row.reshape(len(row), -1), axis=1)
-    return np.flatnonzero(some).tolist() or [0]

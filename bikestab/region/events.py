@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
+from bikestab.polynomials import derivative, value
 from bikestab.region.skeleton import CurveName, Skeleton, curve_functions, reduced
 from bikestab.roots import positive_roots
 from bikestab.routh import conditions
@@ -79,24 +80,12 @@ def _event_within(key: CurveName, table: Floats) -> Event:
             "slow meet": {"capsize": exists, "meet": p.p2 > 0, "crossing": p.p3 > 0},
         }[key] | {"singular inertia": p.p4 > 0}
         if key == "fold":  # else two intervals meet and become one
-            closes = _value(_slope(_slope(weave)), x) < 0
+            closes = value(derivative(derivative(weave)), x) < 0
         elif key == "crossing":
             closes = exists
         else:  # else weave and capsize change places at one end
-            closes = _value(_slope(p0), x) * _value(_slope(weave), x) < 0
+            closes = value(derivative(p0), x) * value(derivative(weave), x) < 0
     return Event(V, np.array(list(needed.values())), tuple(needed), closes)
-
-
-def _slope(poly: Floats) -> Floats:
-    return (np.arange(len(poly))[:, np.newaxis] * poly)[1:]
-
-
-def _value(poly: Floats, x: Floats) -> Floats:
-    """Polynomials (power, point) at x (…, point)."""
-    value = np.zeros(np.broadcast_shapes(poly.shape[1:], x.shape))
-    for c in poly[::-1]:
-        value = value * x + c
-    return value
 
 
 def _event_at_an_end(key: CurveName, found: Skeleton) -> Event:
@@ -136,7 +125,7 @@ def _common_root(key: CurveName, found: Skeleton) -> Floats:
     """The positive x (point,) at which two of the reduced conditions vanish together; NaN where none does."""
     weave, p0, p1, p3, q = (found.polynomials[name] for name in ("hurwitz3", "p0", "p1", "p3", "q"))
     candidates, other = {
-        "fold": (_slope(weave), weave),
+        "fold": (derivative(weave), weave),
         "crossing": (p1, p3),
         "meet": (p0, q),
         "slow meet": (p0, p1),
@@ -146,7 +135,7 @@ def _common_root(key: CurveName, found: Skeleton) -> Floats:
     if not len(x):
         return np.full(p0.shape[1], np.nan)
     with np.errstate(invalid="ignore"):
-        residual = np.abs(_value(other, x)) / _value(np.abs(other), np.abs(x))
+        residual = np.abs(value(other, x)) / value(np.abs(other), np.abs(x))
     common = np.argmin(np.where(np.isnan(residual), np.inf, residual), axis=0)
     x = x[common, np.arange(x.shape[1])]
     return np.where(x > 0, x, np.nan)

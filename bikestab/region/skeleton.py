@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, characteristic_table
-from bikestab.routh import condition_polynomials, product
+from bikestab.polynomials import derivative, product, settled, total, trimmed
+from bikestab.routh import condition_polynomials
 from bikestab.speeds import intervals_of
 
 CurveName = Literal[
@@ -43,8 +44,9 @@ class Skeleton(NamedTuple):
 def reduced(table: Floats) -> Skeleton:
     """The conditions of a table (5, 4, *shape), and q = p2 p3 − p4 p1: at p0 = 0 hurwitz3 is p1 q."""
     found = condition_polynomials(table)
-    found["q"] = _sum(product(table[2], table[3]), -product(table[4], table[1]))
-    short = {name: _stripped(poly) for name, poly in found.items()}
+    first, second = product(table[2], table[3]), product(table[4], table[1])
+    found["q"] = settled(total(first, -second), total(np.abs(first), np.abs(second)))
+    short = {name: trimmed(poly) for name, poly in found.items()}
     odd = any(poly[1::2].any() for poly in short.values())
     return Skeleton({name: poly if odd else poly[::2] for name, poly in short.items()}, 1 if odd else 2)
 
@@ -228,8 +230,7 @@ def _discriminant(f: Floats) -> Floats:
     n = len(f) - 1
     if n < 2:
         return np.ones(f.shape[1:])
-    slope = f[1:] * np.arange(1, n + 1).reshape(-1, *(1,) * (f.ndim - 1))
-    matrix = _sylvester(f, slope)
+    matrix = _sylvester(f, derivative(f))
     matrix[..., n - 2, -1], matrix[..., -1, -1] = 1, n / _UNIT  # that coefficient out of the last column
     return np.linalg.det(matrix)
 
@@ -249,18 +250,3 @@ def _sylvester(f: Floats, g: Floats) -> Floats:
             for j, c in enumerate(scaled):
                 matrix[..., offset + i, i + j] = c
     return matrix
-
-
-def _stripped(poly: Floats) -> Floats:
-    """Without the powers that no cell has, below and above."""
-    used = np.flatnonzero(poly.any(axis=tuple(range(1, poly.ndim))))
-    return poly[used[0] : used[-1] + 1] if len(used) else poly[:1]
-
-
-def _sum(a: Floats, b: Floats) -> Floats:
-    """The sum of two polynomials along the first axis, without the noise of terms that cancel."""
-    n = max(len(a), len(b))
-    a, b = (np.concatenate([p, np.zeros((n - len(p), *p.shape[1:]))]) for p in (a, b))
-    total = a + b
-    total[np.abs(total) <= 64 * np.finfo(float).eps * (np.abs(a) + np.abs(b))] = 0.0
-    return total

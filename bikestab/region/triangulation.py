@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import elementwise
 from scipy.spatial import Delaunay, cKDTree
 
+from bikestab import polynomials
 from bikestab.errors import ScanError
 from bikestab.model import Floats
 from bikestab.region.curves import Curve
@@ -237,10 +238,9 @@ def _matters(box: Box, name: CurveName, points: Floats) -> NDArray[np.bool_]:
 
 def _on_face(box: Box, condition: str, side: int, points: Floats) -> Floats:
     found = reduced(box.table(points))
-    value = np.zeros(points.shape[1])
-    for c in found.polynomials[condition][::-1]:
-        value = value * box.V[side] ** found.power + c
-    return value
+    return polynomials.value(
+        found.polynomials[condition], np.full(points.shape[1], box.V[side] ** found.power)
+    )
 
 
 def _edge_on_face(box: Box, condition: str, side: int, points: Floats) -> NDArray[np.bool_]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
+from bikestab.polynomials import taylor
 from bikestab.routh import CONDITIONS, condition, condition_polynomials, conditions, violated
 from bikestab.speeds import Critical
 
@@ -87,10 +88,10 @@ def _zeros(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
 
 def _poor(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
     """What is the matter with roots where the condition has one sign on both sides."""
-    size, taylor = _size(table, name, root), _taylor(condition_polynomials(table)[name], root)
+    size, series = _size(table, name, root), taylor(condition_polynomials(table)[name], root)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        sharp = _ROUNDING * size / np.abs(taylor[1]) < np.minimum(AGREEMENT, 0.5 * np.minimum(root, room))
-        reach = np.where(sharp, _FAR, _reach(taylor, _ZERO * size))
+        sharp = _ROUNDING * size / np.abs(series[1]) < np.minimum(AGREEMENT, 0.5 * np.minimum(root, room))
+        reach = np.where(sharp, _FAR, _reach(series, _ZERO * size))
     difference = np.full(len(root), np.inf)
     step = np.minimum(AGREEMENT, 0.5 * root)
     while np.any(step < reach):
@@ -134,21 +135,12 @@ def _size(table: Floats, name: str, V: Floats) -> Floats:
     return getattr(a, name) if name != "hurwitz3" else a.p1 * (a.p2 * a.p3 + a.p4 * a.p1) + a.p0 * a.p3**2
 
 
-def _taylor(polynomial: Floats, V: Floats) -> Floats:
-    """The coefficients of the polynomials in powers of the distance from V."""
-    a = polynomial.copy()
-    for k in range(len(a) - 1):
-        for j in range(len(a) - 2, k - 1, -1):
-            a[j] += a[j + 1] * V
-    return a
-
-
-def _reach(taylor: Floats, zero: Floats) -> Floats:
+def _reach(series: Floats, zero: Floats) -> Floats:
     """How far from V a root may be of a polynomial whose value there is up to ``zero``.
 
     The root nearest to V in the complex plane is never farther: the k-th coefficient over the value is
     a sum of binom(n, k) products of k reciprocal roots.
     """
-    n = len(taylor) - 1
-    bounds = [(comb(n, k) * zero / np.abs(taylor[k])) ** (1 / k) for k in range(1, n + 1)]
+    n = len(series) - 1
+    bounds = [(comb(n, k) * zero / np.abs(series[k])) ** (1 / k) for k in range(1, n + 1)]
     return np.fmin.reduce(bounds)

@@ -1,0 +1,96 @@
+"""Many small polynomials at once: values, slopes, products, sums, and what rounding leaves of them.
+
+A polynomial is an array of coefficients of x^0, x^1, … along the first axis, cells behind it.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bikestab.model import Floats
+
+EPS = float(np.finfo(float).eps)
+# A sum of products of table entries, such as a coefficient of hurwitz3, that is no more than this share of
+# its terms' size is nothing but their rounding.
+PRODUCTS = 64 * EPS
+
+
+def value(c: Floats, x: Floats) -> Floats:
+    """The polynomials (power, *shape) at x, by Horner's scheme; x broadcasts against ``shape``."""
+    out = c[-1] + 0 * x  # NaN where x is
+    for cj in c[-2::-1]:
+        out = out * x + cj
+    return out
+
+
+def value_and_slope(c: Floats, x: Floats) -> tuple[Floats, Floats]:
+    """Value and first derivative at x of polynomials of degree 1 or more."""
+    out, slope = c[-1] * x + c[-2], c[-1]
+    for cj in c[-3::-1]:
+        slope = slope * x + out
+        out = out * x + cj
+    return out, slope
+
+
+def value_of_powers(c: Floats, powers: NDArray[np.bool_], x: Floats, shape: tuple[int, ...]) -> Floats:
+    """``value`` of polynomials of which no cell has other powers than those marked; of the given shape."""
+    used = [j for j, some in enumerate(powers) if some] or [0]
+    out = c[used[-1]]
+    for high, low in pairwise(reversed(used)):
+        out = out * x ** (high - low)
+        out += c[low]
+    if used[0] > 0 and len(used) > 1:
+        out *= x ** used[0]
+    elif used[0] > 0:
+        out = out * x ** used[0]
+    return out if np.shape(out) == shape else np.broadcast_to(out, shape)
+
+
+def derivative(c: Floats) -> Floats:
+    """The coefficients of the first derivatives; zero of constants."""
+    return c * 0 if len(c) < 2 else c[1:] * np.arange(1, len(c)).reshape(-1, *(1,) * (c.ndim - 1))
+
+
+def taylor(c: Floats, x: Floats) -> Floats:
+    """The coefficients in powers of the distance from x."""
+    out = c.copy()
+    for k in range(len(out) - 1):
+        for j in range(len(out) - 2, k - 1, -1):
+            out[j] += out[j + 1] * x
+    return out
+
+
+def product(a: Floats, b: Floats) -> Floats:
+    """The products of polynomials."""
+    out = np.zeros((len(a) + len(b) - 1, *np.broadcast_shapes(a.shape[1:], b.shape[1:])))
+    for i in used_powers(a) or [0]:
+        for j in used_powers(b) or [0]:
+            out[i + j] += a[i] * b[j]
+    return out
+
+
+def total(a: Floats, b: Floats) -> Floats:
+    """The sums of polynomials, of whatever degrees."""
+    n = max(len(a), len(b))
+    a, b = (np.concatenate([p, np.zeros((n - len(p), *p.shape[1:]))]) for p in (a, b))
+    return a + b
+
+
+def settled(c: Floats, size: Floats, share: float = PRODUCTS) -> Floats:
+    """Sums with zeros where they are no more than that share of the ``size`` of their terms."""
+    return np.where(np.abs(c) <= share * size, 0.0, c)
+
+
+def used_powers(c: Floats) -> list[int]:
+    """The powers that some cell has."""
+    some = np.logical_or.reduce(c.reshape(len(c), -1), axis=1)
+    return np.flatnonzero(some).tolist()
+
+
+def trimmed(c: Floats) -> Floats:
+    """Without the powers that no cell has, below and above."""
+    used = used_powers(c)
+    return c[used[0] : used[-1] + 1] if used else c[:1]
