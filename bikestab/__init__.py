@@ -1,3 +1,48 @@
-"""Where a bicycle or motorcycle runs straight by itself: the region of stable (λ, σ, V)."""
+"""Where a bicycle or motorcycle runs straight by itself: the region of stable (λ, σ, V).
+
+The names below are public; each is imported when it is first used, so that ``import bikestab`` takes no time.
+"""
 
 __version__ = "0.1.0"
+
+TYPE_CHECKING = False  # type checkers take it for True; typing's own costs more than all of this
+if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
+    from bikestab.errors import BikestabError, InputError, ScanError
+    from bikestab.speeds import KINDS, Intervals
+    from bikestab.stability import eigenvalues, growth_rate, modes, stable, stable_intervals
+
+_HOME = {  # module → public names
+    "bicycle": ("Bicycle",),
+    "errors": ("BikestabError", "InputError", "ScanError"),
+    "speeds": ("KINDS", "Intervals"),
+    "stability": ("eigenvalues", "growth_rate", "modes", "stable", "stable_intervals"),
+}
+__all__ = [
+    "KINDS",
+    "Bicycle",
+    "BikestabError",
+    "InputError",
+    "Intervals",
+    "ScanError",
+    "eigenvalues",
+    "growth_rate",
+    "modes",
+    "stable",
+    "stable_intervals",
+]
+
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name):
+        for module, names in _HOME.items():
+            if name in names:
+                from importlib import import_module
+
+                value = globals()[name] = getattr(import_module(f"bikestab.{module}"), name)
+                return value
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+    def __dir__():
+        return [*__all__, "__version__"]

@@ -32,6 +32,11 @@ class Bicycle:
 
     Raises InputError (with the parameter's name as key) for what the equations cannot use.
     ``warnings`` names what no rigid body can have; such values are still computed with.
+
+    >>> import bikestab as bs
+    >>> bike = bs.Bicycle.preset("meijaard2007")
+    >>> bike.c, round(bike.replaced({"mB": 100}).m1, 3), bike.warnings
+    (1.02, 102.0, ())
     """
 
     c: float = _parameter("m", "wheelbase", "positive")

@@ -8,6 +8,7 @@ from typing import Any
 from bikestab.errors import InputError
 
 MOST_TRAIL = 100.0  # of σ
+MOST_SPEED = 1e6  # m/s; more would overflow in hurwitz3
 MOST = 1e9  # of every parameter, in its SI unit; more would overflow in products of conditions
 
 
@@ -29,6 +30,13 @@ def check_trail(sigma: float, key: tuple[str | int, ...]) -> None:
             key=key,
             hint=f"allowed: -{MOST_TRAIL:g} ... {MOST_TRAIL:g}; sigma = trail / wheelbase",
         )
+
+
+def check_speed(V: float, key: tuple[str | int, ...]) -> None:
+    """Raise InputError for a negative speed, and for one beyond all sense."""
+    if not 0 <= V <= MOST_SPEED:
+        problem = f"{V:g} is a speed backwards" if V < 0 else f"{V:g} m/s is out of range"
+        raise InputError(problem, key=key, hint=f"allowed: 0 ... {MOST_SPEED:g} m/s")
 
 
 def exceeds(a: Any, b: Any) -> Any:

@@ -27,6 +27,11 @@ class Intervals(NamedTuple):
 
     V1 and V2 are NaN behind a cell's last interval; V2 is inf where it is unbounded above.
     ``lower`` and ``upper`` are indices into KINDS: what happens at either end.
+
+    >>> import bikestab as bs
+    >>> found = bs.stable_intervals(bs.Bicycle.preset("meijaard2007"))
+    >>> [bs.KINDS[kind] for kind in (*found.lower, *found.upper)]
+    ['weave', 'capsize']
     """
 
     V1: Floats

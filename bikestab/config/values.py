@@ -21,11 +21,10 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from bikestab.errors import InputError
-from bikestab.limits import check_tilt, check_trail
+from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.model import Floats
 from bikestab.units import ANGLE, PURE, SPEED, quantity
 
-MOST_SPEED = 1e6  # m/s; more would overflow in hurwitz3
 ABSENT: Any = None  # a key that may be missing, while null would be no number
 
 
@@ -45,11 +44,10 @@ def _reads(units: dict[str, float], check: str = "") -> BeforeValidator:
                 check_tilt(number, ())
             if check == "trail":
                 check_trail(number, ())
+            if check.endswith("speed"):
+                check_speed(number, ())
         except InputError as error:
             raise mistake(error.problem, error.hint + words) from None
-        if check.endswith("speed") and not 0 <= number <= MOST_SPEED:
-            problem = "is a speed backwards" if number < 0 else "m/s is out of range"
-            raise mistake(f"{number:g} {problem}", f"allowed: 0 ... {MOST_SPEED:g} m/s")
         if check == "not negative" and number < 0:
             raise mistake(f"{number:g} is negative", "allowed: 0 and above")
         if check == "positive" and number <= 0:
