@@ -24,6 +24,15 @@ class InputError(BikestabError):
         super().__init__(problem)
         self.problem, self.key, self.hint, self.place = problem, tuple(key), hint, place
 
+    def at(self, place: str = "", *, under: Sequence[str | int] = ()) -> InputError:
+        """The same mistake told of at ``place``, with its key ``under`` another.
+
+        One that has a place already stays as it is: its key is a key of that document.
+        """
+        if self.place:
+            return self
+        return InputError(self.problem, key=(*under, *self.key), hint=self.hint, place=place)
+
     def __str__(self) -> str:
         head = ": ".join(part for part in (self.place, dotted(self.key), self.problem) if part)
         return f"{head}\n{self.hint}" if self.hint else head

@@ -45,10 +45,7 @@ class Document:
 
     def located(self, error: InputError) -> InputError:
         """The same error with this file and the line of its key in front."""
-        if error.place:
-            return error
-        place = f"{self.file}, line {self.line(error.key)}"
-        return InputError(error.problem, key=error.key, hint=error.hint, place=place)
+        return error.at(f"{self.file}, line {self.line(error.key)}")
 
 
 def read(path: str | Path) -> Document:

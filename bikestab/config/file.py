@@ -52,8 +52,8 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
             raise _translated(error) from None
     except InputError as error:
         for key, place in places.items():
-            if not error.place and error.key[: len(key)] == key:
-                raise InputError(error.problem, key=error.key, hint=error.hint, place=place) from None
+            if error.key[: len(key)] == key:
+                raise error.at(place) from None
         raise document.located(error) from None
 
 
@@ -73,9 +73,7 @@ def _load_bicycle(value: object, folder: Path) -> object:
         if isinstance(value, dict):
             return Bicycle.from_mapping(value)
     except InputError as error:
-        if error.place:
-            raise
-        raise InputError(error.problem, key=("bicycle", *error.key), hint=error.hint) from None
+        raise error.at(under=("bicycle",)) from None
     return value
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bikestab.export.formats import file_format
+from bikestab.files import written
 from bikestab.model import Floats
 from bikestab.region.mesh import Mesh
 from bikestab.speeds import CAPSIZE, KINDS, WEAVE
@@ -52,7 +53,7 @@ def save_mesh(mesh: Mesh, path: Path, scale: Sequence[float] | Floats, about: Ma
     """Write a mesh in the format of the file's ending, its points (λ, σ, V) times ``scale`` (3,).
 
     ``about`` is told in the file as far as the format has room. Raises InputError for an unknown ending or a
-    missing package, OSError where the file cannot be written.
+    missing package, and as ``files.written``.
     """
     ending = file_format(path, MESHES)
     points = mesh.points * np.asarray(scale, dtype=float)
@@ -65,7 +66,8 @@ def save_mesh(mesh: Mesh, path: Path, scale: Sequence[float] | Floats, about: Ma
         content = _ply(mesh, points, about)
     else:
         content = _vtk(mesh, points, np.asarray(scale, dtype=float), about, ending)
-    path.write_bytes(content)
+    with written(path) as part:
+        part.write_bytes(content)
 
 
 def _vtk(mesh: Mesh, points: Floats, scale: Floats, about: Mapping[str, str], ending: str) -> bytes:

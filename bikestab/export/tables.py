@@ -1,4 +1,4 @@
-"""The stable intervals of a volume and the skeleton's curves as tables, in CSV or Parquet.
+"""Stable intervals, the skeleton's curves, modes and the best designs as tables, in CSV or Parquet.
 
 docs/format.md describes the columns.
 """
@@ -14,10 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.export.formats import file_format
+from bikestab.files import written
 from bikestab.model import Floats
 from bikestab.speeds import KINDS
 
 if TYPE_CHECKING:
+    from bikestab.branches import Modes
+    from bikestab.design.best import Design
     from bikestab.region.curves import Curve
     from bikestab.volume import Volume
 
@@ -35,6 +38,14 @@ INTERVALS: Columns = {
 SKELETON: Columns = {
     "curve": ("int32", "1"), "name": _TEXT, "closes": ("bool", ""), "point": ("int32", "1"), **_DESIGN,
     "V": ("float64", "m/s"), "start": _TEXT, "end": _TEXT,
+}  # fmt: skip
+MODES: Columns = {
+    "V": ("float64", "m/s"), "branch": ("int32", "1"), "name": _TEXT, "re": ("float64", "1/s"),
+    "im": ("float64", "1/s"),
+}  # fmt: skip
+FRONT: Columns = {
+    **_DESIGN, "V1": ("float64", "m/s"), "V2": ("float64", "m/s"), "lower": _TEXT, "upper": _TEXT,
+    "width": ("float64", "m/s"), "growth_rate": ("float64", "1/s"), "V": ("float64", "m/s"), "at": _TEXT,
 }  # fmt: skip
 _LAYER = 64  # values of λ read at once: a layer of the volume's chunks
 _ROWS = 10_000  # turned into text at once
@@ -71,6 +82,23 @@ def skeleton_blocks(curves: Sequence[Curve], wheelbase: float) -> Iterator[Block
         }  # fmt: skip
 
 
+def modes_blocks(modes: Modes) -> Iterator[Block]:
+    """The rows of MODES: four for each speed, one per branch."""
+    branches, speeds = modes.eigenvalues.shape
+    s = modes.eigenvalues.T.ravel()
+    branch = np.tile(np.arange(branches, dtype=np.int32), speeds)
+    names = modes.names.T.ravel()
+    yield {"V": np.repeat(modes.V, branches), "branch": branch, "name": names, "re": s.real, "im": s.imag}
+
+
+def front_blocks(front: Sequence[Design]) -> Iterator[Block]:
+    """The rows of FRONT: one per design, the widest first; a number that is None is missing."""
+    yield {
+        name: np.array([design[name] for design in front], float if kind == "float64" else object)  # type: ignore[literal-required]
+        for name, (kind, _) in FRONT.items()
+    }
+
+
 def _designs(lam: Floats, sigma: Floats, c: float) -> Block:
     return {"lam": lam, "sigma": sigma, "head_angle_deg": 90 - np.degrees(lam), "trail": sigma * c}
 
@@ -79,12 +107,19 @@ def save_table(columns: Columns, blocks: Iterable[Block], path: Path, about: Map
     """Write a table block by block in the format of the file's ending.
 
     NaN is an empty field in CSV and null in Parquet, where ``about`` is metadata. Raises InputError for an
-    unknown ending or a missing package, OSError where the file cannot be written.
+    unknown ending or a missing package, and as ``files.written``.
     """
     if file_format(path, TABLES) == ".csv":
-        _csv(columns, blocks, path)
+        save_csv(columns, blocks, path)
     else:
-        _parquet(columns, blocks, path, about)
+        with written(path) as part:
+            _parquet(columns, blocks, part, about)
+
+
+def save_csv(columns: Columns, blocks: Iterable[Block], path: str | Path) -> None:
+    """Write a table as CSV, whatever the file's name; raises as ``files.written``."""
+    with written(path) as part:
+        _csv(columns, blocks, part)
 
 
 def _csv(columns: Columns, blocks: Iterable[Block], path: Path) -> None:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 from bikestab import __version__
 from bikestab.bicycle import Bicycle
 from bikestab.design.criteria import Wanted
-from bikestab.errors import InputError, ScanError
+from bikestab.files import unwritable, written
 from bikestab.model import MODELS
 from bikestab.paper1981 import box as paper
 from bikestab.paper1981 import claims, damping, evidence
@@ -54,10 +53,10 @@ def reproduce(folder: str | Path, *, size: Size = FULL, progress: Progress = lam
     data = study(Bicycle.preset(BICYCLE), size, progress)
     progress("figures")
     for name, figure in _figures(data, size):
-        _put(target / name, partial(save, figure))
+        save(figure, target / name)
     text = json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    _put(target / "report.json", lambda part: part.write_text(text, "utf-8"))
-    _put(target / "report.md", lambda part: part.write_text(rendered(data), "utf-8"))
+    _put(target / "report.json", text)
+    _put(target / "report.md", rendered(data))
     return data
 
 
@@ -148,18 +147,9 @@ def _prepare(folder: Path) -> None:
         probe.touch()
         probe.unlink()
     except OSError as error:
-        raise InputError(f"cannot be written ({error.strerror})", place=str(folder)) from None
+        raise unwritable(folder, error) from None
 
 
-def _put(path: Path, write: Callable[[Path], object]) -> None:
-    """Let ``write`` fill a file beside the wanted one, which takes its place only when complete."""
-    part = path.with_name(f".{os.getpid()}.part.{path.name}")
-    try:
-        write(part)
-        part.replace(path)
-    except InputError as error:
-        raise InputError(error.problem, hint=error.hint, place=str(path)) from None
-    except OSError as error:
-        raise ScanError(f"{path}: {error.strerror or error}") from None
-    finally:
-        part.unlink(missing_ok=True)
+def _put(path: Path, text: str) -> None:
+    with written(path) as part:
+        part.write_text(text, "utf-8")

@@ -7,22 +7,22 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from bikestab.errors import InputError, ScanError, nearest
+from bikestab.errors import InputError, nearest
+from bikestab.files import written
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Write the picture in the format of the file's ending."""
-    try:
-        figure.savefig(path, dpi=160)
-    except OSError as error:
-        if error.errno == 28:
-            raise ScanError(f"{path}: the disk is full") from None
-        raise InputError(f"cannot be written ({error.strerror})", place=str(path)) from None
-    except ValueError as error:  # matplotlib's word for an unknown file ending
-        known = sorted(figure.canvas.get_supported_filetypes())
-        raise InputError(
-            str(error).split("(")[0].strip(), place=str(path), hint=nearest(path.suffix[1:], known)
-        ) from None
+    """Write the picture, whole or not at all, in the format of the file's ending.
+
+    Raises InputError for an ending that is none of a picture and where the file cannot be written, ScanError
+    where the disk is full.
+    """
+    known = sorted(set(figure.canvas.get_supported_filetypes()) - {"pgf"})  # which takes a LaTeX
+    ending = path.suffix[1:].lower()
+    if ending not in known:
+        raise InputError(f"Format {ending!r} is not supported", place=str(path), hint=nearest(ending, known))
+    with written(path) as part:
+        figure.savefig(part, format=ending, dpi=160)
 
 
 def slice_name(planes: Mapping[str, float], field: str = "growth_rate") -> str:

@@ -18,13 +18,14 @@ from bikestab import yamltext
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import KEPT, InputError, ScanError, dotted
 from bikestab.fields import AXES, FIELDS
+from bikestab.files import NO_SPACE
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.cluster import on_cluster, versions
 from bikestab.scanning.crosscheck import Agreement
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.processes import in_processes, in_turn
 from bikestab.scanning.sheets import Atlas
-from bikestab.scanning.spool import NO_SPACE, Spool, removed
+from bikestab.scanning.spool import Spool, removed
 from bikestab.scanning.tile import Columns, Finished, keep_heap, parted
 from bikestab.scanning.writer import VolumeWriter, new_volume
 from bikestab.units import shown

@@ -20,6 +20,7 @@ from typing import Any, Self
 from isal import isal_zlib
 
 from bikestab.errors import InputError, ScanError
+from bikestab.files import NO_SPACE
 
 try:
     import fcntl
@@ -29,7 +30,6 @@ except ImportError:  # pragma: no cover  # Windows has no such lock: nobody then
 _MAGIC = b"bikestab tiles 1 "
 _HEAD = struct.Struct("<QIQ")  # number of the tile, lengths of its notes and data
 _SUM = struct.Struct("<I")  # checksum of all three
-NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 _NO_LOCKS = {errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK}  # some network disks
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from bikestab import __version__
 from bikestab.fields import AXES, COORDINATES, FIELDS, Field
+from bikestab.files import beside
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.chunks import packed, places
@@ -37,17 +38,13 @@ def new_volume(path: Path, plan: Plan) -> Iterator[VolumeWriter]:
     """
     partial = path.with_name(path.name + ".partial")
     partial.unlink(missing_ok=True)
-    try:
-        with Sink(partial, "x+") as sink, sink.uninterrupted():
-            with h5py.File(sink, "w", track_order=True) as file:
-                yield VolumeWriter(file, plan, sink)
-            sink.check()
-            os.fsync(sink.fileno())
-            sink.check()
-        partial.replace(path)
-        _sync(path.parent)
-    finally:
-        partial.unlink(missing_ok=True)
+    with beside(path, partial), Sink(partial, "x+") as sink, sink.uninterrupted():
+        with h5py.File(sink, "w", track_order=True) as file:
+            yield VolumeWriter(file, plan, sink)
+        sink.check()
+        os.fsync(sink.fileno())
+        sink.check()
+    _sync(path.parent)
 
 
 def _sync(folder: Path) -> None:

@@ -17,7 +17,6 @@ from bikestab_cli.options import (
     machine_options,
     print_json,
     table,
-    written,
 )
 
 from bikestab.units import ANGLE, PURE, SPEED
@@ -107,6 +106,7 @@ def command(
     from bikestab.design.best import best_designs
     from bikestab.design.criteria import Wanted
     from bikestab.errors import InputError
+    from bikestab.export.tables import FRONT, front_blocks, save_csv
 
     bicycle = load_bicycle(bicycle_name, delta)
     try:
@@ -127,14 +127,16 @@ def command(
         click.echo(_told(wanted, best))
     files = {}
     if csv_file:
-        files["front"] = written(csv_file, lambda path: _write_csv(best.pareto, path))
+        save_csv(FRONT, front_blocks(best.pareto), csv_file)
+        files["front"] = csv_file
     if output:
         from bikestab.plot.designs import draw_designs
         from bikestab.plot.files import save
         from bikestab.region.curves import trace
 
         figure = draw_designs(wanted, best, trace(bicycle, lam, sigma, model=model))
-        files["picture"] = written(output, lambda path: save(figure, path))
+        save(figure, Path(output))
+        files["picture"] = output
     if as_json:
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "lam": lam, "sigma": sigma}
         head |= {"trail": trail, "V_max": V_max, "judged": judged, "stable": stable}
@@ -238,14 +240,3 @@ def _notes(wanted: Wanted, designs: list[Design], best: Best) -> list[str]:
     if fastest and (fastest["growth_rate"] is None or fastest["growth_rate"] >= 0):
         notes.append(f"no design that was found decays {_where_judged(wanted)}")
     return ["\n".join(notes)] if notes else []
-
-
-def _write_csv(front: list[Design], path: Path) -> None:
-    from bikestab.design.best import Design
-
-    keys = list(Design.__annotations__)
-    lines = [",".join(keys)]
-    for design in front:
-        values: dict[str, Any] = {**design, "at": f'"{design["at"]}"'}
-        lines.append(",".join("" if values[key] is None else str(values[key]) for key in keys))
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -18,7 +18,6 @@ from bikestab_cli.options import (
     machine_options,
     print_json,
     table,
-    written,
 )
 
 from bikestab.units import SPEED
@@ -78,6 +77,7 @@ def command(
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
     from bikestab.branches import follow
+    from bikestab.export.tables import MODES, modes_blocks, save_csv
     from bikestab.model import characteristic_table
 
     if min(speeds) < 0:
@@ -95,13 +95,15 @@ def command(
     intervals = _intervals(coefficients)
     files = {}
     if csv_file:
-        files["csv"] = written(csv_file, lambda path: _write_csv(modes, path))
+        save_csv(MODES, modes_blocks(modes), csv_file)
+        files["csv"] = csv_file
     if output:
         from bikestab.plot.files import save
         from bikestab.plot.modes import draw_modes
 
         figure = draw_modes(bicycle, lam, sigma, min(speeds), max(speeds), model=model)
-        files["picture"] = written(output, lambda path: save(figure, path))
+        save(figure, Path(output))
+        files["picture"] = output
     if as_json:
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "lam": lam, "sigma": sigma}
         head |= {"head_angle_deg": 90 - math.degrees(lam), "trail": sigma * bicycle.c}
@@ -211,13 +213,3 @@ def _cell(s: complex, name: str) -> str:
     if name == "pair 2":
         return f"{s.real:z.6f} {'-' if s.imag < 0 else '+'} {abs(s.imag):z.6f}i (pair 2)"
     return f"{s.real:z.6f} ({name})"
-
-
-def _write_csv(modes: Modes, path: Path) -> None:
-    lines = ["V,branch,name,re,im"]
-    for V, names, values in zip(modes.V.tolist(), modes.names.T, modes.eigenvalues.T, strict=True):
-        lines += [
-            f"{V!r},{branch},{name},{s.real!r},{s.imag!r}"
-            for branch, (name, s) in enumerate(zip(names, values.tolist(), strict=True))
-        ]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")

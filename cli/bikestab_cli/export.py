@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from bikestab_cli.options import at_option, written
+from bikestab_cli.options import at_option
 
 if TYPE_CHECKING:
     from bikestab.volume import Volume
@@ -127,7 +127,7 @@ def _write_intervals(volume: Volume, names: tuple[str, ...], about: dict[str, st
     intervals, designs = int(stable.sum()), stable[..., 0].size
     without = designs - int(stable.any(axis=-1).sum())
     for name in names:
-        written(name, lambda path: save_table(INTERVALS, interval_blocks(volume), path, about))
+        save_table(INTERVALS, interval_blocks(volume), Path(name), about)
         click.echo(
             f"{name}: {_count(intervals, 'interval')}; "
             f"{without} of {designs} designs have no stable speed and no row"
@@ -143,7 +143,7 @@ def _write_skeleton(volume: Volume, names: tuple[str, ...], about: dict[str, str
     curves = trace(bicycle, lam, sigma, model=volume.model)
     points = sum(len(curve.lam) for curve in curves)
     for name in names:
-        written(name, lambda path: save_table(SKELETON, skeleton_blocks(curves, bicycle.c), path, about))
+        save_table(SKELETON, skeleton_blocks(curves, bicycle.c), Path(name), about)
         click.echo(f"{name}: {_count(len(curves), 'curve')} of {_count(points, 'point')}")
 
 
@@ -166,7 +166,7 @@ def _write_mesh(
     factors = readable_scale(*zip(*box, strict=True)) if scale is None else scale
     weave, capsize = (int((mesh.kind == kind).sum()) for kind in (WEAVE, CAPSIZE))
     for name in names:
-        written(name, lambda path: save_mesh(mesh, path, factors, about))
+        save_mesh(mesh, Path(name), factors, about)
         click.echo(
             f"{name}: {_count(len(mesh.points), 'point')}, {_count(len(mesh.triangles), 'triangle')} "
             f"({weave} weave, {capsize} capsize); {scale_text(factors)}"

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -160,26 +158,3 @@ def design_columns(lam: float, sigma: float, wheelbase: float) -> list[str]:
 
 
 DESIGN_HEAD = ["lam [rad]", "head angle [°]", "sigma", "trail [m]"]
-
-
-def written(name: str, write: Callable[[Path], object]) -> str:
-    """Let ``write`` fill a file beside the wanted one, which takes its place only when complete."""
-    from bikestab.errors import ScanError
-
-    path = Path(name)
-    part = path.with_name(f".{os.getpid()}.part.{path.name}")  # the ending tells the kind of picture
-    try:
-        write(part)
-        part.replace(path)
-    except InputError as error:
-        place = error.place if error.place not in ("", str(part)) else name  # it may be what is read
-        raise InputError(error.problem, hint=error.hint, place=place) from None
-    except ScanError as error:
-        raise ScanError(str(error).replace(str(part), name)) from None
-    except OSError as error:
-        if error.errno == 28:
-            raise ScanError(f"{name}: the disk is full") from None
-        raise InputError(f"cannot be written ({error.strerror})", place=name) from None
-    finally:
-        part.unlink(missing_ok=True)
-    return name

@@ -72,7 +72,7 @@ def command(
         try:
             check_size(config)
         except InputError as error:
-            raise InputError(error.problem, key=error.key, hint=error.hint, place=name) from None
+            raise error.at(name) from None
         path = volume_path(config).resolve()
         if path in loaded:
             problem = f"{config.output} is the output of {loaded[path][0]} too"
@@ -105,8 +105,7 @@ def _run(
         with progress(name, quiet) as show:
             return run_scan(config, force=force, jobs=jobs, scheduler=scheduler, progress=show)
     except InputError as error:
-        place = error.place or name
-        raise InputError(error.problem, key=error.key, hint=error.hint, place=place) from None
+        raise error.at(name) from None
     except KeyboardInterrupt:
         hint = ""
         with suppress(OSError):

@@ -149,11 +149,11 @@ def test_a_failure_keeps_the_file_that_was_there(tmp_path, monkeypatch):
     path = tmp_path / "modes.csv"
     path.write_text("before", encoding="utf-8")
 
-    def full(self, *args, **kwargs):
-        self.touch()
+    def full(columns, blocks, part):
+        part.touch()
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("pathlib.Path.write_text", full)
+    monkeypatch.setattr("bikestab.export.tables._csv", full)
     with pytest.raises(BikestabError, match=r"modes\.csv: the disk is full"):
         run(*BENCHMARK, "--csv", str(path))
     assert path.read_bytes() == b"before"
