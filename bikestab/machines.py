@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle, parameters
 from bikestab.errors import InputError
 from bikestab.limits import MOST_TRAIL, allowed, doubts, exceeds
-from bikestab.notation import CHECKS, PARTS, reduced
+from bikestab.notation import CHECKS, MEIJAARD, PARTS, reduced
 
 _Floats = NDArray[np.float64]
 
@@ -77,17 +77,28 @@ class Machines:
         """
         columns: dict[str, Any] = {name: values[:, np.newaxis] for name, values in samples.items()}
         shape = next(iter(columns.values())).shape
-        if "R" in columns:
-            columns["R1"] = columns["R2"] = columns.pop("R")
-        numbers: dict[str, Any] = {**bicycle.given, **columns}
         good = np.ones(shape, dtype=bool)
         with np.errstate(all="ignore"):  # what no machine has may overflow
             if bicycle.bodies is not None:
-                good &= _bodies_exist(numbers)
-                numbers = {"delta": 0.0, **reduced(numbers)}
-            good &= _machine_exists(numbers)
+                good &= _bodies_exist({**bicycle.bodies, **columns})
+            machines = cls.varied(bicycle, columns, shape)
+            good &= _machine_exists(vars(machines))
         if not good.all():
             raise _refusal(bicycle, samples, np.flatnonzero(~good))
+        return machines
+
+    @classmethod
+    def varied(cls, bicycle: Bicycle, columns: Mapping[str, _Floats], shape: tuple[int, ...]) -> Machines:
+        """Copies of a bicycle, with arrays that broadcast to ``shape`` as some of its parameters; unchecked.
+
+        They are those of its notation, or of the two parts that it is reduced to.
+        """
+        numbers: dict[str, Any] = {**bicycle.given, **columns}
+        if bicycle.bodies is not None:
+            parts = {name: values for name, values in columns.items() if name not in MEIJAARD}
+            numbers = {"delta": 0.0, **reduced(numbers), **parts}
+        if "R" in columns:
+            numbers["R1"] = numbers["R2"] = columns["R"]
         return cls(shape=shape, **{p.name: numbers[p.name] for p in _PARAMETERS})
 
     def doubtful(self) -> dict[str, int]:

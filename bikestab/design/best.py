@@ -1,4 +1,4 @@
-"""The best designs in a box of tilt λ and trail σ, by several criteria, and the front between two of them."""
+"""The best designs in a box of a family, by several criteria, and the front between two of them."""
 
 from __future__ import annotations
 
@@ -176,10 +176,10 @@ def _front(search: _Search, widest: Found, fastest: Found) -> list[Found]:
 
 
 def _own(wanted: Wanted) -> Design | None:
-    lam, sigma = wanted.bicycle.lam, wanted.bicycle.sigma
-    if lam is None or sigma is None:
+    own = wanted.family.own
+    if None in own:
         return None
-    x = np.array([lam, sigma])
+    x = np.array(own, dtype=float)
     low, high = wanted.box
     inside = bool(np.all((low <= x) & (x <= high)))
     allowed = bool(counted(wanted, wanted.table(x[:, np.newaxis])).any[0])
@@ -201,11 +201,12 @@ def _design(wanted: Wanted, x: Floats, pick: Pick = "widest", at: str = "") -> D
         merit = np.where(hit, 1.0, 0.0)
     k = int(np.argmax(merit))
     some = bool(found.intervals.upper[0, k])
+    lam, sigma, wheelbase = (float(value) for value in wanted.family.geometry(*x))
     return Design(
-        lam=float(x[0]),
-        sigma=float(x[1]),
-        head_angle_deg=90 - math.degrees(x[0]),
-        trail=float(x[1]) * wanted.bicycle.c,
+        lam=lam,
+        sigma=sigma,
+        head_angle_deg=90 - math.degrees(lam),
+        trail=sigma * wheelbase,
         V1=float(V1[k]) if some else None,
         V2=_finite(V2[k]),
         lower=KINDS[lower[k]] if some else None,
@@ -222,8 +223,8 @@ def _place(wanted: Wanted, criterion: Criterion, best: Found) -> str:
     low, high = wanted.box
     size = high - low
     places = []
-    for i, name in enumerate(("lam", "sigma")):
-        for end, given in ((low[i], wanted.sigma[0]), (high[i], wanted.sigma[1])):
+    for i, name in enumerate((wanted.family.x, wanted.family.y)):
+        for end, given in ((low[i], wanted.y[0]), (high[i], wanted.y[1])):
             if size[i] and abs(best.x[i] - end) <= 1e-6 * size[i]:
                 places.append(f"limit of {'trail' if i and end != given else name}")
     near, far = (_beside(wanted, criterion, best.x, share * size) for share in (0.1 * _BESIDE, _BESIDE))

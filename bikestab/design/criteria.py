@@ -8,10 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
-from bikestab.limits import check_tilt, check_trail
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.family import Family
+from bikestab.model import Floats
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import Intervals, intervals_of
 
@@ -24,36 +23,38 @@ _COARSE, _FINE, _FINEST = 2, 4, 7  # rounds of sampling the speeds, each 16 time
 
 @dataclass(frozen=True)
 class Wanted:
-    """A box of λ [rad] and σ, perhaps cut by a range of trail [m], and what is asked of a design in it.
+    """A box of designs of a family, perhaps cut by a range of trail [m], and what is asked of one in it.
+
+    The default box is one of λ [rad] and σ; ``trail`` cuts the latter only.
 
     Stable intervals count up to ``V_max`` [m/s], and those that start above it not at all; with ``stable``
     only one that contains these speeds [m/s] counts. Decay is judged at the worst of the speeds
     ``judged``, or, where that is None, at each design's best speed. Raises InputError for contradictions.
     """
 
-    bicycle: Bicycle
-    lam: Range = LAM_RANGE
-    sigma: Range = SIGMA_RANGE
+    family: Family
+    x: Range = LAM_RANGE
+    y: Range = SIGMA_RANGE
     trail: Range | None = None
     V_max: float = V_MAX
     judged: Range | None = None
     stable: Range | None = None
-    model: Model = "refined"
 
     def __post_init__(self) -> None:
         _check(self)
 
     @property
     def box(self) -> tuple[Floats, Floats]:
-        """The lowest and the highest (λ, σ)."""
-        low, high = self.sigma
+        """The lowest and the highest (x, y)."""
+        low, high = self.y
         if self.trail:
-            low, high = max(low, self.trail[0] / self.bicycle.c), min(high, self.trail[1] / self.bicycle.c)
-        return np.array([self.lam[0], low]), np.array([self.lam[1], high])
+            c = self.family.bicycle.c
+            low, high = max(low, self.trail[0] / c), min(high, self.trail[1] / c)
+        return np.array([self.x[0], low]), np.array([self.x[1], high])
 
     def table(self, x: Floats) -> Floats:
         """Characteristic tables of designs x (2, *shape)."""
-        return characteristic_table(self.bicycle, x[0], x[1], model=self.model)
+        return self.family.table(x[0], x[1])
 
 
 class Counted(NamedTuple):
@@ -183,27 +184,37 @@ def _or_miss(wanted: Wanted, table: Floats, allowed: NDArray[np.bool_], values: 
 
 
 def _check(wanted: Wanted) -> None:
-    for name in ("lam", "sigma", "trail", "judged", "stable"):
-        ends: Range | None = getattr(wanted, name)
-        if ends and not ends[0] <= ends[1]:
+    family = wanted.family
+    ranges = {family.x: wanted.x, family.y: wanted.y}
+    ranges |= {name: getattr(wanted, name) for name in ("trail", "judged", "stable") if getattr(wanted, name)}
+    for name, ends in ranges.items():
+        if not ends[0] <= ends[1]:
             problem = f"the range {ends[0]:g}:{ends[1]:g} ends before it starts"
             raise InputError(problem, key=(name,), hint=f"did you mean {ends[1]:g}:{ends[0]:g}?")
-        if ends and name in ("judged", "stable") and ends[0] < 0:
+        if name in ("judged", "stable") and ends[0] < 0:
             raise InputError(f"{ends[0]:g} m/s is negative", key=(name,), hint="allowed: 0 and above")
-    for end in wanted.lam:
-        check_tilt(end, ("lam",))
-    for end in wanted.sigma:
-        check_trail(end, ("sigma",))
+    for x in wanted.x:
+        for y in wanted.y:
+            family.check(x, y)
     if not 0 < wanted.V_max <= 1e4:
         hint = "allowed: above 0, up to 10000 m/s"
         raise InputError(f"{wanted.V_max:g} m/s is no cap for the speed", key=("V_max",), hint=hint)
     if wanted.stable and wanted.stable[1] > wanted.V_max:
         problem = f"{wanted.stable[1]:g} m/s is above {wanted.V_max:g} m/s, up to which intervals count"
         raise InputError(problem, key=("stable",), hint=f"raise V_max to {wanted.stable[1]:g} at least")
-    if wanted.trail and wanted.box[0][1] > wanted.box[1][1]:
-        low, high = (end / wanted.bicycle.c for end in wanted.trail)
+    if wanted.trail:
+        _check_trail_range(wanted, wanted.trail)
+
+
+def _check_trail_range(wanted: Wanted, trail: Range) -> None:
+    if wanted.family.y != "sigma":
+        problem = f"a range of trail cuts one of sigma, not of {wanted.family.y}"
+        raise InputError(problem, key=("trail",), hint="leave it out")
+    if wanted.box[0][1] > wanted.box[1][1]:
+        c = wanted.family.bicycle.c
+        low, high = (end / c for end in trail)
         raise InputError(
-            f"on a wheelbase of {wanted.bicycle.c:g} m this is σ = {low:g} ... {high:g}, "
-            f"none of which is in σ = {wanted.sigma[0]:g} ... {wanted.sigma[1]:g}",
+            f"on a wheelbase of {c:g} m this is σ = {low:g} ... {high:g}, "
+            f"none of which is in σ = {wanted.y[0]:g} ... {wanted.y[1]:g}",
             key=("trail",), hint="widen one of the two",
         )  # fmt: skip

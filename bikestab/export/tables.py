@@ -70,14 +70,14 @@ def interval_blocks(volume: Volume) -> Iterator[Block]:
 def skeleton_blocks(curves: Sequence[Curve], wheelbase: float) -> Iterator[Block]:
     """The rows of SKELETON: one per point of a traced curve; ``wheelbase`` in metres."""
     for number, curve in enumerate(curves, 1):
-        n = len(curve.lam)
+        n = len(curve.x)
 
         def column(value: object, n: int = n) -> NDArray:
             return np.full(n, value)
 
         yield {
             "curve": np.full(n, number, np.int32), "name": column(curve.name), "closes": column(curve.closes),
-            "point": np.arange(1, n + 1, dtype=np.int32), **_designs(curve.lam, curve.sigma, wheelbase),
+            "point": np.arange(1, n + 1, dtype=np.int32), **_designs(curve.x, curve.y, wheelbase),
             "V": curve.V, "start": column(curve.ends[0]), "end": column(curve.ends[1]),
         }  # fmt: skip
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
+from bikestab.family import Family
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.region.skeleton import Line, crossings
 from bikestab.speeds import Intervals, intervals_of
@@ -110,7 +111,7 @@ def exact_shares(
     bicycle: Bicycle, lines: int, *, lam: Range = LAM, sigma: Range = SIGMA, model: Model = "refined"
 ) -> dict[str, float]:
     """As ``Map.shares``, from the exact ends of each kind along λ on lines of constant σ."""
-    line = Line(bicycle, model, None, middles(sigma, lines))
+    line = Line(Family(bicycle, model), None, middles(sigma, lines))
     cuts = crossings(line, *lam)
     found = intervals_of(line.table(0.5 * (cuts[:, 1:] + cuts[:, :-1])))
     length = np.diff(cuts, axis=1) / (lam[1] - lam[0])
@@ -128,7 +129,7 @@ def unbounded_ranges(
     bicycle: Bicycle, sigma: float, *, lam: Range = LAM, model: Model = "refined"
 ) -> list[Range]:
     """The ranges of λ [rad] with an unbounded interval at one σ, right to rounding."""
-    line = Line(bicycle, model, None, [sigma])
+    line = Line(Family(bicycle, model), None, [sigma])
     cuts = crossings(line, *lam)[0]
     found = intervals_of(line.table(0.5 * (cuts[1:] + cuts[:-1])[np.newaxis]))
     has = np.asarray(np.isinf(found.V2).any(axis=-1))[0] & (np.diff(cuts) > 0)

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from bikestab.bicycle import Bicycle
+from bikestab.family import Family
 from bikestab.model import Floats, characteristic_table, coefficients
 from bikestab.paper1981 import box as paper
 from bikestab.paper1981 import claims
 from bikestab.paper1981.box import LAM, SIGMA
-from bikestab.region.skeleton import sigma_min
+from bikestab.region.skeleton import lowest_stable
 from bikestab.speeds import CAPSIZE, WEAVE, intervals_of
 
 Numbers = dict[str, Any]
@@ -102,7 +103,7 @@ class _Region:
         )
         self.weave, self.V1 = found.lower[..., 0] == WEAVE, found.V1[..., 0]
         self.unbounded = np.isinf(found.V2).any(axis=-1)
-        folds = sigma_min(bicycle, FOLDS, high=SIGMA[1]).tolist()
+        folds = lowest_stable(Family(bicycle), 0.0, SIGMA[1], x=FOLDS).tolist()
         self.folds = [None if np.isnan(fold) else fold for fold in folds]
 
 

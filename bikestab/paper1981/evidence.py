@@ -13,12 +13,13 @@ from bikestab.bicycle import Bicycle
 from bikestab.design import criteria
 from bikestab.design.best import Best, best_designs
 from bikestab.design.criteria import Wanted
+from bikestab.family import Family
 from bikestab.model import Floats, canonical_matrices, characteristic_table
 from bikestab.paper1981 import box as paper
 from bikestab.paper1981.box import LAM, SIGMA, WIDER, Map, Size, V
 from bikestab.paper1981.machines import random_machines
 from bikestab.region.curves import trace
-from bikestab.region.skeleton import lam_min, sigma_min, stable_ranges
+from bikestab.region.skeleton import lowest_stable, stable_ranges
 from bikestab.speeds import KINDS, intervals_of
 
 Numbers = dict[str, Any]
@@ -102,10 +103,10 @@ def _curves_at_infinity(bicycle: Bicycle, size: Size) -> list[Numbers]:
     return [
         {
             "name": curve.name,
-            "from": {"lam": float(curve.lam[0]), "sigma": float(curve.sigma[0]), "at": curve.ends[0]},
-            "to": {"lam": float(curve.lam[-1]), "sigma": float(curve.sigma[-1]), "at": curve.ends[1]},
+            "from": {"lam": float(curve.x[0]), "sigma": float(curve.y[0]), "at": curve.ends[0]},
+            "to": {"lam": float(curve.x[-1]), "sigma": float(curve.y[-1]), "at": curve.ends[1]},
         }
-        for curve in trace(bicycle, LAM, SIGMA, samples=size.picture)
+        for curve in trace(Family(bicycle), LAM, SIGMA, samples=size.picture)
         if curve.name.endswith("infinity")
     ]
 
@@ -162,9 +163,9 @@ def _falls(values: Floats) -> bool:
 
 def widths_along_lines(bicycle: Bicycle, steps: int) -> Numbers:
     """Where along lines of constant σ and of constant λ there are stable speeds, and the widest interval."""
-    wanted = Wanted(bicycle, LAM, SIGMA, V_max=V[1])
+    wanted = Wanted(Family(bicycle), LAM, SIGMA, V_max=V[1])
     rows: dict[str, list[Numbers]] = {"sigma": [], "lam": []}
-    for sigma, ranges in zip(SIGMAS, stable_ranges(bicycle, *LAM, sigma=SIGMAS), strict=True):
+    for sigma, ranges in zip(SIGMAS, stable_ranges(Family(bicycle), *LAM, y=SIGMAS), strict=True):
         lam, width = _widest(bicycle, np.linspace(*LAM, steps), sigma)
         unbounded = paper.unbounded_ranges(bicycle, sigma)
         end = float(_widths(bicycle, np.array([LAM[1]]), np.array(sigma))[0])
@@ -172,7 +173,7 @@ def widths_along_lines(bicycle: Bicycle, steps: int) -> Numbers:
             {"sigma": sigma, "stable_lam": ranges, "unbounded_lam": unbounded, "best_lam": lam,
              "width": width, "width_at_largest_lam": end}
         )  # fmt: skip
-    for lam, ranges in zip(LAMS, stable_ranges(bicycle, *SIGMA, lam=LAMS), strict=True):
+    for lam, ranges in zip(LAMS, stable_ranges(Family(bicycle), *SIGMA, x=LAMS), strict=True):
         sigma, width = _widest(bicycle, lam, np.linspace(*SIGMA, steps))
         rows["lam"].append({"lam": lam, "stable_sigma": ranges, "best_sigma": sigma, "width": width})
     return {"cap": wanted.V_max, "at_sigma": rows["sigma"], "at_lam": rows["lam"]}
@@ -191,8 +192,8 @@ def _widest(bicycle: Bicycle, lam: Any, sigma: Any) -> tuple[float, float]:
 
 def smallest_tilt(bicycle: Bicycle) -> Numbers:
     """The smallest λ with a stable speed at the largest σ, and the smallest σ at the largest λ."""
-    lam = float(lam_min(bicycle, SIGMA[1], high=LAM[1]))
-    sigma = float(sigma_min(bicycle, LAM[1], high=SIGMA[1]))
+    lam = float(lowest_stable(Family(bicycle), 0.0, LAM[1], y=SIGMA[1]))
+    sigma = float(lowest_stable(Family(bicycle), 0.0, SIGMA[1], x=LAM[1]))
     return {"lam_min": None if math.isnan(lam) else lam, "sigma_min": None if math.isnan(sigma) else sigma}
 
 
@@ -204,7 +205,7 @@ def searched(wanted: Wanted, grid: int) -> Best:
 
 def margin(bicycle: Bicycle, size: Size) -> Numbers:
     """Conclusion 3: the best designs by width and by decay, each searched for in the paper's box."""
-    box = Wanted(bicycle, LAM, SIGMA, V_max=V[1])
+    box = Wanted(Family(bicycle), LAM, SIGMA, V_max=V[1])
     found: list[Numbers] = []
     for words, speeds in JUDGED.items():
         best = searched(replace(box, judged=speeds), size.search)
@@ -219,7 +220,7 @@ def margin(bicycle: Bicycle, size: Size) -> Numbers:
 
 def margin_on_grid(bicycle: Bicycle, n: int) -> float | None:
     """How far the widest and the fastest decaying of n × n designs are apart, in sides of the box."""
-    box = Wanted(bicycle, LAM, SIGMA, V_max=V[1])
+    box = Wanted(Family(bicycle), LAM, SIGMA, V_max=V[1])
     x = np.stack(np.meshgrid(np.linspace(*LAM, n), np.linspace(*SIGMA, n), indexing="ij")).reshape(2, -1)
     width, growth = criteria.width_and_decay(box, x)
     if not width.max() > 0:

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from bikestab.bicycle import Bicycle
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.paper1981 import box as paper
 from bikestab.paper1981.box import LAM, SIGMA, V
@@ -39,10 +40,10 @@ def draw_kinds(bicycle: Bicycle, examples: list[dict[str, Any]], samples: int) -
         shading="nearest", rasterized=True,
     )  # fmt: skip
     names = {}
-    for curve in trace(bicycle, LAM, top, samples=samples):
+    for curve in trace(Family(bicycle), LAM, top, samples=samples):
         names[curve.name] = colour, dashes = CURVES[curve.name]
-        ax.plot(curve.lam, curve.sigma, color="white", lw=3.2, alpha=0.8)
-        ax.plot(curve.lam, curve.sigma, color=colour, lw=1.8, ls=dashes)
+        ax.plot(curve.x, curve.y, color="white", lw=3.2, alpha=0.8)
+        ax.plot(curve.x, curve.y, color=colour, lw=1.8, ls=dashes)
     ax.add_patch(Rectangle((LAM[0], SIGMA[0]), LAM[1], SIGMA[1], fill=False, ec="black", lw=1.6, zorder=4))
     ax.text(
         LAM[1] * 0.985,

@@ -15,13 +15,14 @@ from matplotlib.patheffects import TickedStroke
 from mpl_toolkits.mplot3d import Axes3D
 
 from bikestab.bicycle import Bicycle
+from bikestab.family import Family
 from bikestab.fields import Axis
 from bikestab.model import Floats, Model
 from bikestab.paper1981.box import LAM, SIGMA, V
 from bikestab.plot.axes import HALO, LABELS, SYMBOLS, label_axes
 from bikestab.plot.region import draw_mesh
 from bikestab.region.mesh import Mesh
-from bikestab.region.section import IN_PLANE, Section, edge_curves, zero_curves
+from bikestab.region.section import Section, edge_curves, zero_curves
 from bikestab.routh import CONDITIONS, conditions
 
 ENDS: dict[Axis, tuple[float, float]] = {"lam": LAM, "sigma": SIGMA, "V": V}
@@ -49,7 +50,7 @@ def draw_sections(bicycle: Bicycle, samples: int) -> Figure:
         colours = colormaps["viridis"](np.linspace(0, 0.82, len(values)))
         for value, colour in zip(values, colours, strict=True):
             section = _section(bicycle, fixed, value)
-            X, Y = (np.linspace(*ENDS[name], samples) for name in (section.x, section.y))
+            X, Y = (np.linspace(*ENDS[name], samples) for name in section.axes)
             for name, (_, style) in EDGES.items():
                 for x, y in edge_curves(section, name, X, Y):
                     ticked(ax, section, CONDITIONS, x, y, color=colour, ls=style)
@@ -92,7 +93,7 @@ def draw_refinement(bicycle: Bicycle, lam: float, meshes: dict[Model, Mesh], sam
     sheets: dict[str, Any] = {}
     for column, (model, mesh) in enumerate(meshes.items()):
         ax = figure.add_subplot(grid[0, column])
-        section = Section(bicycle, model, "lam", lam, "sigma", "V")
+        section = Section(Family(bicycle, model), "lam", lam)
         X, Y = np.linspace(*SIGMA, samples), np.linspace(0, top, samples)
         table, speed = section.table_and_speed(X[np.newaxis, :], Y[:, np.newaxis])
         inside = np.all([value > 0 for value in conditions(table, speed)], axis=0)
@@ -127,7 +128,7 @@ def ticked(
 
 def oriented(section: Section, names: Sequence[str], x: Floats, y: Floats) -> tuple[Floats, Floats]:
     """The curve in the direction that has the points where the conditions hold at its left."""
-    width, height = (ENDS[name][1] - ENDS[name][0] for name in (section.x, section.y))
+    width, height = (ENDS[name][1] - ENDS[name][0] for name in section.axes)
     along = np.gradient(x / width), np.gradient(y / height)
     length = np.maximum(np.hypot(*along), 1e-300)
     aside = _ASIDE * width * along[1] / length, _ASIDE * height * along[0] / length
@@ -142,11 +143,11 @@ def _held(section: Section, names: Sequence[str], x: Floats, y: Floats) -> Any:
 
 
 def _section(bicycle: Bicycle, fixed: Axis, value: float) -> Section:
-    return Section(bicycle, "refined", fixed, value, *IN_PLANE[fixed])
+    return Section(Family(bicycle), fixed, value)
 
 
 def _label(ax: Axes, fixed: Axis, bicycle: Bicycle) -> None:
-    x, y = IN_PLANE[fixed]
+    x, y = _section(bicycle, fixed, 0.0).axes
     ax.set(xlim=ENDS[x], ylim=ENDS[y])
     label_axes(ax, x, y, bicycle.c)
     ax.set_ylabel(LABELS[y])

@@ -11,6 +11,7 @@ from typing import Any
 from bikestab import __version__
 from bikestab.bicycle import Bicycle
 from bikestab.design.criteria import Wanted
+from bikestab.family import Family
 from bikestab.files import unwritable, written
 from bikestab.model import MODELS
 from bikestab.paper1981 import box as paper
@@ -121,7 +122,7 @@ def _figures(data: Numbers, size: Size) -> Any:
     bicycle = Bicycle.preset(BICYCLE)
     numbers = {number: part["numbers"] for number, part in data["conclusions"].items()}
     meshes = {
-        model: region_mesh(bicycle, LAM, SIGMA, V, model=model, cells=size.cells, whole=False)
+        model: region_mesh(Family(bicycle, model), LAM, SIGMA, V, cells=size.cells, whole=False)
         for model in MODELS
     }
     yield "figure3.png", draw_sections(bicycle, size.picture)
@@ -134,9 +135,9 @@ def _figures(data: Numbers, size: Size) -> Any:
 
 
 def _designs(bicycle: Bicycle, size: Size) -> Any:
-    wanted = Wanted(bicycle, LAM, SIGMA, V_max=V[1])
+    wanted = Wanted(Family(bicycle), LAM, SIGMA, V_max=V[1])
     best = evidence.searched(wanted, size.search)
-    return draw_designs(wanted, best, trace(bicycle, LAM, SIGMA, samples=size.picture))
+    return draw_designs(wanted, best, trace(Family(bicycle), LAM, SIGMA, samples=size.picture))
 
 
 def _prepare(folder: Path) -> None:

@@ -48,26 +48,27 @@ class Curve(Protocol):
     @property
     def name(self) -> str: ...
     @property
-    def lam(self) -> Floats: ...
+    def x(self) -> Floats: ...
     @property
-    def sigma(self) -> Floats: ...
+    def y(self) -> Floats: ...
 
 
 def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Figure:
     """The box of ``wanted``, which needs a length in λ and σ, with the designs found and skeleton curves."""
     figure = Figure(figsize=(8.2, 6.4), layout="constrained")
     ax = figure.add_subplot()
-    x, y = (np.linspace(*ends, _SAMPLES) for ends in (wanted.lam, wanted.sigma))
-    ax.set_xlim(*wanted.lam)
-    ax.set_ylim(*wanted.sigma)
+    x, y = (np.linspace(*ends, _SAMPLES) for ends in (wanted.x, wanted.y))
+    ax.set_xlim(*wanted.x)
+    ax.set_ylim(*wanted.y)
     ax.set_facecolor("white")
     handles = _widths(figure, ax, wanted, x, y)
     handles += _curves(ax, curves)
     handles += _optima(ax, best)
-    label_axes(ax, "lam", "sigma", wanted.bicycle.c)
+    bicycle = wanted.family.bicycle
+    label_axes(ax, "lam", "sigma", bicycle.c)
     legend_below(figure, handles, handlelength=2.8, fontsize=9)
     ax.set_title(
-        f"{wanted.bicycle.name}{remarks(wanted.bicycle, wanted.model)}: "
+        f"{bicycle.name}{remarks(bicycle, wanted.family.model)}: "
         f"widest interval of stable speeds up to {wanted.V_max:g} m/s",
         fontsize=10,
     )
@@ -129,7 +130,7 @@ def _refused(ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> list[Any]:
     _hatch(ax, x, y, refused, "////", "0.45")
     A, B = wanted.stable or (0.0, 0.0)
     asked = [f"not stable from {A:g} to {B:g} m/s"] if wanted.stable else []
-    asked += ["other trail"] if low[1] > wanted.sigma[0] or high[1] < wanted.sigma[1] else []
+    asked += ["other trail"] if low[1] > wanted.y[0] or high[1] < wanted.y[1] else []
     return [_patch("////", "0.45", " or ".join(asked), "0.92")]
 
 
@@ -177,7 +178,7 @@ def _curves(ax: Axes, curves: Sequence[Curve]) -> list[Any]:
     styles: dict[str, tuple[str, Any]] = {}
     for curve in curves:
         color, dashes = styles.setdefault(curve.name, CURVES.get(curve.name, _OTHER))
-        draw_on_white(ax, [(curve.lam, curve.sigma)], lw=1.9, color=color, ls=dashes, zorder=3)
+        draw_on_white(ax, [(curve.x, curve.y)], lw=1.9, color=color, ls=dashes, zorder=3)
     return [entry(name, lw=1.9, color=color, ls=dashes) for name, (color, dashes) in styles.items()]
 
 

@@ -14,6 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
+from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, remarks
@@ -32,7 +33,8 @@ _SCALE = (1.0, 1.0, 0.85)  # of the drawn box
 def draw_region(volume: Volume) -> Figure:
     """The boundary surface within the volume's axes, weave and capsize sheets in two colours."""
     box = [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in AXES)]
-    mesh = region_mesh(volume.bicycle, box[0], box[1], box[2], model=volume.model, cells=_CELLS, whole=False)
+    family = Family(volume.bicycle, volume.model)
+    mesh = region_mesh(family, box[0], box[1], box[2], cells=_CELLS, whole=False)
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     if handles := draw_mesh(ax, mesh, box):

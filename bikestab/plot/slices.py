@@ -11,12 +11,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from bikestab.errors import InputError
+from bikestab.family import Family
 from bikestab.fields import AXES, Axis
 from bikestab.model import Floats
 from bikestab.plot.axes import SYMBOLS, head_angle, label_axes, remarks
 from bikestab.plot.colours import GROWTH, colour_growth_rate, colour_probability
 from bikestab.plot.lines import EDGES, draw_on_white, entry, legend_below
-from bikestab.region.section import IN_PLANE, Section, edge_curves
+from bikestab.region.section import Section, edge_curves
 from bikestab.routh import conditions, violated
 from bikestab.spectrum import growth_rate_of
 from bikestab.volume import Volume
@@ -46,16 +47,15 @@ def draw_slice(
     near = int(np.argmin(np.abs(axis - value)))
     if field == "probability":
         value = on_grid(volume, fixed, value)
-    x_name, y_name = IN_PLANE[fixed]
-    section = Section(volume.bicycle, volume.model, fixed, value, x_name, y_name)
-    x, y = volume.axis(x_name), volume.axis(y_name)
+    section = Section(Family(volume.bicycle, volume.model), fixed, value)
+    x, y = (volume.axis(name) for name in section.axes)
     figure = Figure(figsize=(7.4, 5.2), layout="constrained")
     ax = figure.add_subplot()
     if field == "probability":
         colour_probability(figure, ax, x, y, _stored(volume, field, fixed, near), volume.samples)
         legend_below(figure, _edges(ax, section, x, y, "boundary without the spread"))
     else:
-        colour_growth_rate(figure, ax, x, y, _growth_rate(volume, section, x, y, near))
+        colour_growth_rate(figure, ax, x, y, _growth_rate(volume, section, fixed, x, y, near))
         legend_below(figure, _stable_region(ax, section, x, y))
     _decorate(ax, volume, section)
     return figure
@@ -79,11 +79,11 @@ def _stored(volume: Volume, field: str, fixed: Axis, at: int) -> Floats:
     return np.transpose(volume.read(field, index))  # the file's first axis is along x
 
 
-def _growth_rate(volume: Volume, section: Section, x: Floats, y: Floats, near: int) -> Floats:
+def _growth_rate(volume: Volume, section: Section, fixed: Axis, x: Floats, y: Floats, near: int) -> Floats:
     """Growth rate at (y, x)."""
-    axis = volume.axis(section.fixed)
+    axis = volume.axis(fixed)
     if "growth_rate" in volume.fields and _same(axis, axis[near], section.value):
-        return _stored(volume, "growth_rate", section.fixed, near)
+        return _stored(volume, "growth_rate", fixed, near)
     return growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
 
 
@@ -119,14 +119,15 @@ def _edges(ax: Axes, section: Section, x: Floats, y: Floats, word: str = "bounda
 
 
 def _decorate(ax: Axes, volume: Volume, section: Section) -> None:
-    c = section.bicycle.c
-    label_axes(ax, section.x, section.y, c)
+    bicycle = section.family.bicycle
+    c = bicycle.c
+    label_axes(ax, *section.axes, c)
     where = {
         "lam": f"λ = {section.value:.6g} rad (head angle {head_angle(section.value):.2f}°)",
         "sigma": f"σ = {section.value:.6g} (trail {section.value * c:.4g} m)",
         "V": f"V = {section.value:.6g} m/s",
     }[section.fixed]
     ax.set_title(
-        f"{volume.title}\n{section.bicycle.name}: {where}{remarks(section.bicycle, section.model)}",
+        f"{volume.title}\n{bicycle.name}: {where}{remarks(bicycle, section.family.model)}",
         fontsize=10,
     )

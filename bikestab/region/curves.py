@@ -1,4 +1,4 @@
-"""The skeleton's curves traced through a box of the (λ, σ) plane: pieces with their ends."""
+"""The skeleton's curves traced through a box of the plane of designs: pieces with their ends."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 from contourpy import contour_generator
 from scipy.optimize import elementwise
 
-from bikestab.bicycle import Bicycle
 from bikestab.errors import ScanError
-from bikestab.model import Floats, Model
+from bikestab.family import Family
+from bikestab.model import Floats
 from bikestab.region.events import Box, event_at
 from bikestab.region.skeleton import CurveName, curve_functions
 
@@ -31,7 +31,7 @@ _SECTIONS = 64  # of a stretch of curve at a time, when an end is looked for in 
 class Curve(NamedTuple):
     """One connected piece of a curve across which the stable intervals change.
 
-    ``name`` is a value of NAMES. ``lam`` [rad], ``sigma`` [1] and ``V`` [m/s], shape (point,), are on
+    ``name`` is a value of NAMES. ``x`` and ``y`` of the family and ``V`` [m/s], shape (point,), are on
     the curve to rounding; V is where it happens: inf for a root that leaves upwards, NaN where p4 = 0.
     ``closes`` tells whether an interval closes there, V1 = V2; else two meet, or one gets another end.
     ``ends`` says what stops the piece at its first and last point: ``box``, ``closed``, or the name of
@@ -39,34 +39,33 @@ class Curve(NamedTuple):
     """
 
     name: str
-    lam: Floats
-    sigma: Floats
+    x: Floats
+    y: Floats
     V: Floats
     closes: bool
     ends: tuple[str, str]
 
     def reversed(self) -> Curve:
         """The same from its other end."""
-        lam, sigma, V = (values[::-1].copy() for values in (self.lam, self.sigma, self.V))
-        return Curve(self.name, lam, sigma, V, self.closes, (self.ends[1], self.ends[0]))
+        x, y, V = (values[::-1].copy() for values in (self.x, self.y, self.V))
+        return Curve(self.name, x, y, V, self.closes, (self.ends[1], self.ends[0]))
 
 
 def trace(
-    bicycle: Bicycle,
-    lam: tuple[float, float],
-    sigma: tuple[float, float],
+    family: Family,
+    x: tuple[float, float],
+    y: tuple[float, float],
     V: tuple[float, float] = (0.0, np.inf),
     *,
-    model: Model = "refined",
     samples: int = _SAMPLES,
 ) -> list[Curve]:
-    """Every piece of every curve in a box λ [rad] × σ [1] × V [m/s].
+    """Every piece of every curve in a box x × y × V [m/s] of a family.
 
     Sign changes of the curve functions between the nodes of a grid (``samples`` per axis) are refined
     along its lines, so a closed piece smaller than a cell of this grid is not seen. Raises ScanError if
     a zero cannot be refined.
     """
-    box = Box(bicycle, model, np.array([lam, sigma], dtype=float), V)
+    box = Box(family, np.array([x, y], dtype=float), V)
     nodes = np.linspace(0, 1, samples)
     functions = curve_functions(box.table(np.array(np.meshgrid(nodes, nodes, indexing="ij"))))
     found: list[Curve] = []
@@ -135,8 +134,8 @@ def _pieces(box: Box, key: CurveName, points: Floats, step: float) -> Iterator[C
             V = event_at(box, key, run).V
             for met, at in zip(ends, (0, -1), strict=True):
                 V[at] = np.inf if met.endswith("infinity") else 0.0 if met.endswith("rest") else V[at]
-            lam, sigma = box.real(run)
-            yield Curve(NAMES[key], lam, sigma, V, bool(state[start] == 2), (ends[0], ends[1]))
+            x, y = box.real(run)
+            yield Curve(NAMES[key], x, y, V, bool(state[start] == 2), (ends[0], ends[1]))
 
 
 def _end(box: Box, key: CurveName, inside: Floats, outside: Floats, state: int) -> tuple[str, Floats]:
@@ -171,7 +170,7 @@ def _rejoined(pieces: list[Curve]) -> list[Curve]:
         first = broken.pop(0)
         if first.ends[1] != _HOP:
             first = first.reversed()
-        last = np.array([first.lam[-1], first.sigma[-1]])
+        last = np.array([first.x[-1], first.y[-1]])
         others = [
             (other, i)
             for i, piece in enumerate(broken)
@@ -182,15 +181,13 @@ def _rejoined(pieces: list[Curve]) -> list[Curve]:
             start = first.name if first.ends[0] == _HOP else first.ends[0]
             whole.append(first._replace(ends=(start, first.name)))
             continue
-        second, i = min(
-            others, key=lambda pair: np.hypot(pair[0].lam[0] - last[0], pair[0].sigma[0] - last[1])
-        )
+        second, i = min(others, key=lambda pair: np.hypot(pair[0].x[0] - last[0], pair[0].y[0] - last[1]))
         broken.pop(i)
-        lam, sigma, V = (
+        x, y, V = (
             np.append(a[:-1], b[1:])
-            for a, b in ((first.lam, second.lam), (first.sigma, second.sigma), (first.V, second.V))
+            for a, b in ((first.x, second.x), (first.y, second.y), (first.V, second.V))
         )
-        joined = Curve(first.name, lam, sigma, V, first.closes, (first.ends[0], second.ends[1]))
+        joined = Curve(first.name, x, y, V, first.closes, (first.ends[0], second.ends[1]))
         (broken if _HOP in joined.ends else whole).append(joined)
     return whole
 
@@ -245,10 +242,10 @@ def _meeting(curves: list[Curve], box: Box) -> list[Curve]:
     size = box.ends[:, 1] - box.ends[:, 0]
     common: list[Floats] = []
     for i, at in ends:
-        lam, sigma = curves[i].lam, curves[i].sigma
-        here = np.array([lam[at], sigma[at]])
+        x, y = curves[i].x, curves[i].y
+        here = np.array([x[at], y[at]])
         near = [point for point in common if np.abs((point - here) / size).max() < _SAME]
-        lam[at], sigma[at] = near[0] if near else here
+        x[at], y[at] = near[0] if near else here
         if not near:
             common.append(here)
     return curves

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.bicycle import Bicycle
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.family import Family
+from bikestab.model import Floats
 from bikestab.polynomials import derivative, value
 from bikestab.region.skeleton import CurveName, Skeleton, curve_functions, reduced
 from bikestab.roots import positive_roots
@@ -17,10 +17,9 @@ from bikestab.speeds import intervals_of
 
 
 class Box(NamedTuple):
-    """The box with coordinates (u, v) from 0 to 1; ``ends`` are its λ and σ, shape (2, 2)."""
+    """The box with coordinates (u, v) from 0 to 1; ``ends`` are its x and y, shape (2, 2)."""
 
-    bicycle: Bicycle
-    model: Model
+    family: Family
     ends: Floats
     V: tuple[float, float]
 
@@ -29,7 +28,7 @@ class Box(NamedTuple):
         return low * (1 - points) + high * points  # the ends exactly
 
     def table(self, points: Floats) -> Floats:
-        return characteristic_table(self.bicycle, *self.real(points), model=self.model)
+        return self.family.table(*self.real(points))
 
     def value(self, key: CurveName, points: Floats) -> Floats:
         return curve_functions(self.table(points), [key])[key]

@@ -1,6 +1,6 @@
-"""The boundary of the stable region in (λ, σ, V) as triangles, without holes and without a ragged rim.
+"""The boundary of the stable region in (x, y, V) as triangles, without holes and without a ragged rim.
 
-Over the (λ, σ) plane the boundary consists of sheets V1 and V2. A triangulation of the plane that is cut
+Over the plane of designs the boundary consists of sheets V1 and V2. A triangulation of the plane that is cut
 exactly along the curves where sheets meet or end is lifted to each sheet; sheets that meet share
 their points there, so the surface is open only at the faces of the box.
 """
@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.bicycle import Bicycle
 from bikestab.errors import ScanError
-from bikestab.model import Floats, Model
+from bikestab.family import Family
+from bikestab.model import Floats
 from bikestab.region.curves import trace
 from bikestab.region.events import Box, event_at
 from bikestab.region.skeleton import CurveName, reduced
@@ -37,7 +37,7 @@ _SAMPLES = 33  # speeds in an interval, for its lowest growth rate
 class Mesh(NamedTuple):
     """A triangulated boundary; corners of a triangle run anticlockwise seen from the unstable side.
 
-    ``points`` (point, 3) are λ [rad], σ [1], V [m/s]; ``triangles`` (triangle, 3) are indices into them;
+    ``points`` (point, 3) are x and y of the family and V [m/s]; ``triangles`` (triangle, 3) index them;
     ``kind`` (triangle,) is WEAVE or CAPSIZE; ``upper`` (triangle,) tells whether it is an upper end V2.
     ``decay`` (point,) is the lowest growth rate [s⁻¹] in the stable interval of which the point is an end.
     """
@@ -53,7 +53,7 @@ class Mesh(NamedTuple):
         return self.open_within(np.vstack([box.ends, box.V]))
 
     def open_within(self, ends: Floats) -> Index:
-        """The same for a box with these ends (3, 2) of λ, σ and V."""
+        """The same for a box with these ends (3, 2) of x, y and V."""
         sides = np.sort(self.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
         edges, count = np.unique(sides, axis=0, return_counts=True)
         a, b = self.points[edges].swapaxes(0, 1)
@@ -62,37 +62,36 @@ class Mesh(NamedTuple):
 
 
 def region_mesh(
-    bicycle: Bicycle,
-    lam: tuple[float, float],
-    sigma: tuple[float, float],
+    family: Family,
+    x: tuple[float, float],
+    y: tuple[float, float],
     V: tuple[float, float],
     *,
-    model: Model = "refined",
     cells: int = 100,
     whole: bool = True,
 ) -> Mesh:
-    """The boundary of the stable region within a box λ [rad] × σ [1] × V [m/s].
+    """The boundary of the stable region within a box x × y × V [m/s] of a family.
 
-    ``cells`` is the number of triangles along λ and along σ; what is smaller than a cell and bounded by
+    ``cells`` is the number of triangles along x and along y; what is smaller than a cell and bounded by
     no traced curve is not seen. Raises ScanError if the surface has holes or vertical walls; without
     ``whole`` these are left open, and the mesh is there sooner.
     """
-    box = Box(bicycle, model, np.array([lam, sigma], dtype=float), V)
+    box = Box(family, np.array([x, y], dtype=float), V)
     if whole and _has_walls(box):
         raise ScanError(
             "p0 does not depend on the speed, so capsize starts at all speeds at once: the boundary has a "
             "vertical wall there, which a mesh of sheets V1 and V2 cannot show"
         )
     for finer in _TRACED:
-        curves = trace(bicycle, lam, sigma, V, model=model, samples=finer * cells + 1)
+        curves = trace(family, x, y, V, samples=finer * cells + 1)
         mesh = _lifted(box, _parted(box, triangulated(box, curves, cells)))
         holes = mesh.open_edges(box)
         if not whole or not len(holes):
             return mesh
     at = mesh.points[holes[0, 0]]
     raise ScanError(
-        f"the boundary near λ = {at[0]:.6g}, σ = {at[1]:.6g}, V = {at[2]:.6g} m/s is too fine for this mesh: "
-        f"{len(holes)} open edges; another number of cells or a smaller box may help"
+        f"the boundary near {family.x} = {at[0]:.6g}, {family.y} = {at[1]:.6g}, V = {at[2]:.6g} m/s is "
+        f"too fine for this mesh: {len(holes)} open edges; another number of cells or a smaller box may help"
     )
 
 
@@ -161,14 +160,14 @@ def _lifted(box: Box, plane: Plane) -> Mesh:
     where = np.column_stack([triangles[row].ravel(), V.ravel()])
     unique, first, index = np.unique(where, axis=0, return_index=True, return_inverse=True)
     faces = np.where(upper[:, np.newaxis], index.reshape(-1, 3), index.reshape(-1, 3)[:, ::-1])
-    lam, sigma = box.real(plane.points[:, unique[:, 0].astype(int)])
+    x, y = box.real(plane.points[:, unique[:, 0].astype(int)])
     part, corner = np.unravel_index(first, V.shape)
     V1, V2 = (values[row[part], corner, k[part]] for values in corner_ends.V)
     decay = _lowest(box, plane.points[:, triangles[row[part], corner]], V1, V2)
     # where all corners are on the rim, the sheets above and below are the same triangle
     _, same, number = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)
     kept = number[same.ravel()] == 1
-    points = np.column_stack([lam, sigma, unique[:, 1]])
+    points = np.column_stack([x, y, unique[:, 1]])
     return Mesh(points, faces[kept], kind[kept], upper[kept].astype(bool), decay)
 
 

@@ -7,8 +7,8 @@ from typing import TypedDict
 
 import numpy as np
 
-from bikestab.bicycle import Bicycle
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.family import Family
+from bikestab.model import Floats
 from bikestab.region.skeleton import stable_ranges
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
@@ -33,20 +33,20 @@ class Nearest(TypedDict):
     growth_rate: float | None
 
 
-def nearest_stable(bicycle: Bicycle, lam: float, sigma: float, *, model: Model = "refined") -> Nearest:
+def nearest_stable(family: Family, lam: float, sigma: float) -> Nearest:
     """What is nearest to stability around a design (λ [rad], σ [1]) that has no stable speed."""
     low, high = (max(sigma, end) for end in SIGMA_RANGE)
-    sigmas = stable_ranges(bicycle, low, high, lam=lam, model=model)[0] if low < high else []
-    lams = stable_ranges(bicycle, *LAM_RANGE, sigma=sigma, model=model)[0]
+    sigmas = stable_ranges(family, low, high, x=lam)[0] if low < high else []
+    lams = stable_ranges(family, *LAM_RANGE, y=sigma)[0]
     close = min(lams, key=lambda ends: min(abs(end - lam) for end in ends), default=None)
 
     def at_sigma(values: Floats) -> Floats:
-        return characteristic_table(bicycle, lam, values, model=model)
+        return family.table(lam, values)
 
     def at_lam(values: Floats) -> Floats:
-        return characteristic_table(bicycle, values, sigma, model=model)
+        return family.table(values, sigma)
 
-    table = characteristic_table(bicycle, lam, sigma, model=model)
+    table = family.table(lam, sigma)
     V, growth = _slowest(lambda V: growth_rate_of(table, V))
     finite = bool(np.isfinite(growth))
     return Nearest(

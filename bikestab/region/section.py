@@ -1,4 +1,4 @@
-"""Planes through the space of λ, σ and V, and the exact curves in them on which a condition is zero."""
+"""Planes through the space of designs and speeds, and the exact curves in them where a condition is zero."""
 
 from __future__ import annotations
 
@@ -8,34 +8,33 @@ from typing import Any, cast
 import numpy as np
 from contourpy import contour_generator
 
-from bikestab.bicycle import Bicycle
-from bikestab.fields import Axis
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.family import Family
+from bikestab.model import Floats
 from bikestab.routh import condition_polynomials, conditions
-
-IN_PLANE: dict[Axis, tuple[Axis, Axis]] = {
-    "lam": ("sigma", "V"),
-    "sigma": ("lam", "V"),
-    "V": ("lam", "sigma"),
-}
 
 
 @dataclass(frozen=True)
 class Section:
-    """A plane through the space of λ, σ and V: one axis fixed, the two others along x and y."""
+    """A plane through the space of a family and V: ``fixed`` names the axis that has one value."""
 
-    bicycle: Bicycle
-    model: Model
-    fixed: Axis
+    family: Family
+    fixed: str
     value: float
-    x: Axis
-    y: Axis
+
+    @property
+    def axes(self) -> tuple[Any, Any]:  # Any: callers have literal types of their own for these names
+        """The names of the two others, along x and along y."""
+        x, y = (name for name in (self.family.x, self.family.y, "V") if name != self.fixed)
+        return x, y
 
     def table_and_speed(self, x: Floats, y: Floats) -> tuple[Floats, Floats]:
         """Characteristic table and V at points of the plane; x and y broadcast together."""
-        at: dict[Axis, Floats] = {self.fixed: np.array(self.value), self.x: x, self.y: y}
-        table = characteristic_table(self.bicycle, at["lam"], at["sigma"], model=self.model)
-        shape = np.broadcast_shapes(np.shape(at["lam"]), np.shape(at["sigma"]))
+        at: dict[str, Floats] = {
+            self.fixed: np.array(self.value),
+            **dict(zip(self.axes, (x, y), strict=True)),
+        }
+        table = self.family.table(at[self.family.x], at[self.family.y])
+        shape = table.shape[2:]
         return table.reshape(5, 4, *(1,) * (at["V"].ndim - len(shape)), *shape), at["V"]
 
 

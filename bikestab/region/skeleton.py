@@ -1,4 +1,4 @@
-"""The curves in the (λ, σ) plane where stable intervals appear, vanish or lose an end.
+"""The curves in a plane of designs where stable intervals appear, vanish or lose an end.
 
 Between these curves the number of a design's stable intervals and the kinds of their ends do not change,
 so they say exactly which designs have a stable speed, or one without upper limit. Each curve is
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
-from bikestab.bicycle import Bicycle
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.family import Family
+from bikestab.model import Floats
 from bikestab.polynomials import derivative, product, settled, total, trimmed
 from bikestab.routh import condition_polynomials
 from bikestab.speeds import intervals_of
@@ -80,41 +80,38 @@ def curve_functions(
 
 
 class Line(NamedTuple):
-    """Parallel lines in the (λ, σ) plane: one of the two is None and runs, the other has shape (line,)."""
+    """Parallel lines in the plane of a family: x or y is None and runs, the other has shape (line,)."""
 
-    bicycle: Bicycle
-    model: Model
-    lam: ArrayLike | None
-    sigma: ArrayLike | None
+    family: Family
+    x: ArrayLike | None
+    y: ArrayLike | None
 
     @property
     def fixed(self) -> Floats:
         """The values (line,) of the one that does not run."""
-        return np.array(self.sigma if self.lam is None else self.lam, dtype=float).reshape(-1)
+        return np.array(self.y if self.x is None else self.x, dtype=float).reshape(-1)
 
     def table(self, values: Floats) -> Floats:
         """The table (5, 4, line, …) at values (line, …) of the running parameter."""
         fixed = self.fixed.reshape(-1, *(1,) * (values.ndim - 1))
-        lam, sigma = (values, fixed) if self.lam is None else (fixed, values)
-        return characteristic_table(self.bicycle, lam, sigma, model=self.model)
+        return self.family.table(*((values, fixed) if self.x is None else (fixed, values)))
 
 
 def stable_ranges(
-    bicycle: Bicycle,
+    family: Family,
     low: float,
     high: float,
     *,
-    lam: ArrayLike | None = None,
-    sigma: ArrayLike | None = None,
-    model: Model = "refined",
+    x: ArrayLike | None = None,
+    y: ArrayLike | None = None,
 ) -> list[list[tuple[float, float]]]:
     """For each line the ranges of the other parameter, within low … high, with a stable speed.
 
-    Give ``lam`` [rad] for ranges of σ, or ``sigma`` for ranges of λ. The ends are zeros of the curve
+    Give ``x`` for ranges of y, or ``y`` for ranges of x. The ends are zeros of the curve
     functions, right to rounding (to about 1e-10 where two nearly touch), or low and high themselves; the
     region is not sampled.
     """
-    line = Line(bicycle, model, lam, sigma)
+    line = Line(family, x, y)
     cuts = crossings(line, low, high)
     found = []
     has = intervals_of(line.table(0.5 * (cuts[:, 1:] + cuts[:, :-1]))).number > 0
@@ -130,22 +127,13 @@ def stable_ranges(
     return found
 
 
-def sigma_min(
-    bicycle: Bicycle, lam: ArrayLike, *, low: float = 0.0, high: float = 0.5, model: Model = "refined"
+def lowest_stable(
+    family: Family, low: float, high: float, *, x: ArrayLike | None = None, y: ArrayLike | None = None
 ) -> Floats:
-    """The smallest σ from low to high that gives any stable speed, for each λ [rad]; NaN where none does."""
-    return _first(stable_ranges(bicycle, low, high, lam=lam, model=model)).reshape(np.shape(lam))
-
-
-def lam_min(
-    bicycle: Bicycle, sigma: ArrayLike, *, low: float = 0.0, high: float = 0.6, model: Model = "refined"
-) -> Floats:
-    """The smallest λ [rad] from low to high that gives any stable speed, for each σ; NaN where none does."""
-    return _first(stable_ranges(bicycle, low, high, sigma=sigma, model=model)).reshape(np.shape(sigma))
-
-
-def _first(ranges: list[list[tuple[float, float]]]) -> Floats:
-    return np.array([found[0][0] if found else np.nan for found in ranges])
+    """For each line the smallest value from low to high with any stable speed; NaN where there is none."""
+    ranges = stable_ranges(family, low, high, x=x, y=y)
+    lowest = np.array([of[0][0] if of else np.nan for of in ranges])
+    return lowest.reshape(np.asarray(y if x is None else x).shape)
 
 
 def crossings(line: Line, low: float, high: float) -> Floats:
@@ -214,7 +202,7 @@ def _polished(line: Line, curve: NDArray[np.intp], row: NDArray[np.intp], x: Flo
     if not len(x):
         return x
     fixed = line.fixed[row]
-    lines = line._replace(lam=fixed) if line.sigma is None else line._replace(sigma=fixed)
+    lines = line._replace(x=fixed) if line.y is None else line._replace(y=fixed)
     each = np.arange(len(x))
     for step in np.array([1e-4, 1e-5, 1e-6, 1e-6]) * half:
         around = x[:, np.newaxis] + step * np.array([-1.0, 0.0, 1.0])

@@ -1,4 +1,4 @@
-"""A triangulation of a box of the (λ, σ) plane that follows the curves where stable intervals change."""
+"""A triangulation of a box of the plane of designs that follows the curves where stable intervals change."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def _points(box: Box, curves: Sequence[Curve], step: float) -> tuple[Floats, Ind
     low, high = box.ends.T[..., np.newaxis]
     chosen, layers = [np.empty((2, 0))], [np.empty((2, 0))]
     for curve in curves:
-        points = (np.array([curve.lam, curve.sigma]) - low) / (high - low)
+        points = (np.array([curve.x, curve.y]) - low) / (high - low)
         walked = np.append(0.0, np.cumsum(np.hypot(*np.diff(points, axis=1))))
         away = [np.full(len(walked), np.inf) if end in ("box", "closed") else way
                 for end, way in zip(curve.ends, (walked, walked[-1] - walked), strict=True)]  # fmt: skip

@@ -107,10 +107,11 @@ def command(
     from bikestab.design.criteria import Wanted
     from bikestab.errors import InputError
     from bikestab.export.tables import FRONT, front_blocks, save_csv
+    from bikestab.family import Family
 
     bicycle = load_bicycle(bicycle_name, delta)
     try:
-        wanted = Wanted(bicycle, lam, sigma, trail, V_max, judged, stable, model)
+        wanted = Wanted(Family(bicycle, model), lam, sigma, trail, V_max, judged, stable)
     except InputError as error:
         option = {"judged": "--V", "V_max": "--V-max"}.get(str(error.key[0]), f"--{error.key[0]}")
         hint = error.hint.replace("V_max", "--V-max")
@@ -134,7 +135,7 @@ def command(
         from bikestab.plot.files import save
         from bikestab.region.curves import trace
 
-        figure = draw_designs(wanted, best, trace(bicycle, lam, sigma, model=model))
+        figure = draw_designs(wanted, best, trace(wanted.family, lam, sigma))
         save(figure, Path(output))
         files["picture"] = output
     if as_json:
@@ -158,9 +159,9 @@ def _check_picture(output: str, lam: Ends, sigma: Ends) -> None:
 
 
 def _told(wanted: Wanted, best: Best) -> str:
-    bicycle, (low, high) = wanted.bicycle, wanted.box
+    bicycle, (low, high) = wanted.family.bicycle, wanted.box
     parts = [
-        f"{bicycle.name}, {wanted.model} model, damping {bicycle.delta:g} kg m²/s\n"
+        f"{bicycle.name}, {wanted.family.model} model, damping {bicycle.delta:g} kg m²/s\n"
         f"searched: λ = {low[0]:.6g} ... {high[0]:.6g} rad, σ = {low[1]:.6g} ... {high[1]:.6g} "
         f"(trail {low[1] * bicycle.c:.4f} ... {high[1] * bicycle.c:.4f} m)"
         + (f", stable from {wanted.stable[0]:g} to {wanted.stable[1]:g} m/s" if wanted.stable else "")
@@ -214,7 +215,7 @@ def _table(wanted: Wanted, first: str, designs: dict[str, Design]) -> str:
         ]
         width = f"{d['width']:.6f}" + ("*" if _is_cut(wanted, d) else " ")
         rate = "inf" if d["growth_rate"] is None else f"{d['growth_rate']:z.6f}"
-        columns = design_columns(d["lam"], d["sigma"], wanted.bicycle.c)
+        columns = design_columns(d["lam"], d["sigma"], wanted.family.bicycle.c)
         rows.append([name, *columns, *ends, width, rate, f"{d['V']:.4f}"])
     places = ["where", *(design["at"] for design in designs.values())]  # words, aligned to the left
     lines = table(head, rows).split("\n")

@@ -136,12 +136,13 @@ def _write_intervals(volume: Volume, names: tuple[str, ...], about: dict[str, st
 
 def _write_skeleton(volume: Volume, names: tuple[str, ...], about: dict[str, str]) -> None:
     from bikestab.export.tables import SKELETON, save_table, skeleton_blocks
+    from bikestab.family import Family
     from bikestab.region.curves import trace
 
     bicycle = volume.bicycle
     lam, sigma, _ = _box(volume)  # at all speeds: two of the curves are at infinite ones
-    curves = trace(bicycle, lam, sigma, model=volume.model)
-    points = sum(len(curve.lam) for curve in curves)
+    curves = trace(Family(bicycle, volume.model), lam, sigma)
+    points = sum(len(curve.x) for curve in curves)
     for name in names:
         save_table(SKELETON, skeleton_blocks(curves, bicycle.c), Path(name), about)
         click.echo(f"{name}: {_count(len(curves), 'curve')} of {_count(points, 'point')}")
@@ -155,11 +156,12 @@ def _write_mesh(
     about: dict[str, str],
 ) -> None:
     from bikestab.export.meshes import readable_scale, save_mesh, scale_text
+    from bikestab.family import Family
     from bikestab.region.mesh import region_mesh
     from bikestab.speeds import CAPSIZE, WEAVE
 
     box = _box(volume)
-    mesh = region_mesh(volume.bicycle, *box, model=volume.model, cells=cells)
+    mesh = region_mesh(Family(volume.bicycle, volume.model), *box, cells=cells)
     if not len(mesh.triangles):
         click.echo(f"no surface in the box: no mesh is written ({', '.join(names)})")
         return

@@ -127,9 +127,10 @@ def _results(
 
 
 def _nearest(bicycle: Bicycle, lam: float, sigma: float, model: Any) -> Any:
+    from bikestab.family import Family
     from bikestab.region.nearest import nearest_stable
 
-    return nearest_stable(bicycle, lam, sigma, model=model)
+    return nearest_stable(Family(bicycle, model), lam, sigma)
 
 
 def _rows(results: list[dict[str, Any]], wheelbase: float) -> list[list[str]]:

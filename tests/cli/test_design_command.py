@@ -12,6 +12,7 @@ from bikestab.design import best as module
 from bikestab.design import search
 from bikestab.design.best import best_designs
 from bikestab.design.criteria import Wanted
+from bikestab.family import Family
 
 NUMBER, MAYBE = {"type": "number"}, {"type": ["number", "null"]}
 KIND = {"enum": ["weave", "capsize", "rest", "unbounded", None]}
@@ -53,7 +54,7 @@ def test_json_and_its_schema(design):
     ]  # fmt: skip
     assert found["judged"] == [5, 5]
     assert found["sigma"] == [0, 0.3]
-    wanted = Wanted(Bicycle.preset("meijaard2007"), lam=tuple(found["lam"]), judged=(5.0, 5.0))
+    wanted = Wanted(Family(Bicycle.preset("meijaard2007")), x=tuple(found["lam"]), judged=(5.0, 5.0))
     best = best_designs(wanted)
     assert {name: found[name] for name in best._fields} == best._asdict()
     assert found["own"]["V1"] == pytest.approx(4.292382536341, abs=1e-12)
@@ -117,7 +118,7 @@ def test_files(design, tmp_path):
     assert (tmp_path / "d.png").read_bytes()[:4] == b"\x89PNG"
     with (tmp_path / "front.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    best = best_designs(Wanted(Bicycle.preset("dikarev1981"), lam=(0.0, 0.3), judged=(5.0, 5.0)))
+    best = best_designs(Wanted(Family(Bicycle.preset("dikarev1981")), x=(0.0, 0.3), judged=(5.0, 5.0)))
     assert [float(row["width"]) for row in rows] == [found["width"] for found in best.pareto]
     assert [row["at"] for row in rows] == [found["at"] for found in best.pareto]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["d.png", "front.csv"]

@@ -11,6 +11,7 @@ import pytest
 from bikestab_cli.main import main
 
 from bikestab.bicycle import Bicycle, preset_text
+from bikestab.family import Family
 from bikestab.region.nearest import nearest_stable
 
 
@@ -93,7 +94,7 @@ def test_no_stable_speed(vrange):
     (result,) = results(vrange, "--lam", "0.1", "--sigma", "0.08")["results"]
     assert result["intervals"] == []
     assert list(result["nearest"]) == ["sigma_min", "lam_min", "lam_max", "V", "growth_rate"]
-    assert result["nearest"] == nearest_stable(Bicycle.preset("dikarev1981"), 0.1, 0.08)
+    assert result["nearest"] == nearest_stable(Family(Bicycle.preset("dikarev1981")), 0.1, 0.08)
 
 
 def test_advice_can_be_typed_in(vrange):

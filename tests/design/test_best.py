@@ -13,6 +13,7 @@ from bikestab.design import best as module
 from bikestab.design.best import best_designs
 from bikestab.design.criteria import Wanted
 from bikestab.errors import InputError
+from bikestab.family import Family
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
@@ -38,11 +39,13 @@ LIGHT = Bicycle.from_mapping(
     name="light",
 )  # fmt: skip
 CASES = {
-    "dikarev1981": Wanted(DIKAREV),
-    "meijaard2007": Wanted(MEIJAARD, judged=(5.0, 5.0)),
-    "damped": Wanted(DIKAREV.with_delta(1.0), judged=(4.0, 6.0)),
-    "light": Wanted(LIGHT, lam=(-0.1, 0.5), V_max=20.0),
-    "motorcycle": Wanted(MOTORCYCLE, lam=(0.2, 0.6), trail=(0.02, 0.2), judged=(5.0, 7.0), stable=(6.0, 6.5)),
+    "dikarev1981": Wanted(Family(DIKAREV)),
+    "meijaard2007": Wanted(Family(MEIJAARD), judged=(5.0, 5.0)),
+    "damped": Wanted(Family(DIKAREV.with_delta(1.0)), judged=(4.0, 6.0)),
+    "light": Wanted(Family(LIGHT), x=(-0.1, 0.5), V_max=20.0),
+    "motorcycle": Wanted(
+        Family(MOTORCYCLE), x=(0.2, 0.6), trail=(0.02, 0.2), judged=(5.0, 7.0), stable=(6.0, 6.5)
+    ),
 }
 
 
@@ -59,12 +62,12 @@ def case(request):
 @functools.cache
 def _on_grid(name):
     wanted = CASES[name]
-    c = wanted.bicycle.c
-    low, high = wanted.sigma
+    c = wanted.family.bicycle.c
+    low, high = wanted.y
     if wanted.trail:
         low, high = max(low, wanted.trail[0] / c), min(high, wanted.trail[1] / c)
-    lam, sigma = np.linspace(*wanted.lam, N)[:, None], np.linspace(low, high, N)
-    table = characteristic_table(wanted.bicycle, lam, sigma)
+    lam, sigma = np.linspace(*wanted.x, N)[:, None], np.linspace(low, high, N)
+    table = characteristic_table(wanted.family.bicycle, lam, sigma)
     V1, V2, _, _ = intervals_of(table)
     A, B = wanted.stable or (np.inf, 0.0)
     counts = (wanted.V_max > V1) & (V1 <= A) & (V2 >= B)
@@ -81,9 +84,11 @@ def _on_grid(name):
 
 def largest_real_part(wanted, design, V):
     """By a matrix of the equations of motion instead of the polynomial."""
-    M, C1, K0, K2 = canonical_matrices(wanted.bicycle, design["lam"], design["sigma"], model=wanted.model)
-    damping = V * C1 + np.array([[0, 0], [0, wanted.bicycle.delta]])
-    stiffness = wanted.bicycle.g * K0 + V**2 * K2
+    M, C1, K0, K2 = canonical_matrices(
+        wanted.family.bicycle, design["lam"], design["sigma"], model=wanted.family.model
+    )
+    damping = V * C1 + np.array([[0, 0], [0, wanted.family.bicycle.delta]])
+    stiffness = wanted.family.bicycle.g * K0 + V**2 * K2
     inverse = np.linalg.inv(M)
     A = np.block([[np.zeros((2, 2)), np.eye(2)], [-inverse @ stiffness, -inverse @ damping]])
     return np.linalg.eigvals(A).real.max()
@@ -172,9 +177,9 @@ def test_growth_by_eigenvalues(case):
 def test_limits_are_kept(case):
     wanted, best, _ = case
     for design in (best.widest, best.lowest_V1, best.fastest_decay, *best.pareto):
-        assert wanted.lam[0] <= design["lam"] <= wanted.lam[1]
-        assert wanted.sigma[0] <= design["sigma"] <= wanted.sigma[1]
-        assert design["trail"] == pytest.approx(design["sigma"] * wanted.bicycle.c)
+        assert wanted.x[0] <= design["lam"] <= wanted.x[1]
+        assert wanted.y[0] <= design["sigma"] <= wanted.y[1]
+        assert design["trail"] == pytest.approx(design["sigma"] * wanted.family.bicycle.c)
         if wanted.trail:
             assert wanted.trail[0] - 1e-12 <= design["trail"] <= wanted.trail[1] + 1e-12
         if wanted.stable:
@@ -183,7 +188,7 @@ def test_limits_are_kept(case):
 
 
 def test_the_same_twice():
-    wanted = Wanted(MEIJAARD, lam=(0.3, 0.3), judged=(5.0, 5.0))
+    wanted = Wanted(Family(MEIJAARD), x=(0.3, 0.3), judged=(5.0, 5.0))
     assert best_designs(wanted) == best_designs(wanted)
 
 
@@ -191,7 +196,7 @@ def test_the_same_twice():
 
 
 def test_the_lowest_V1_lies_where_the_interval_vanishes():
-    best = found(Wanted(DIKAREV, judged=(5.0, 5.0)))
+    best = found(Wanted(Family(DIKAREV), judged=(5.0, 5.0)))
     assert best.lowest_V1["at"] == "edge of the stable region, where the interval shrinks to a point"
     assert best.lowest_V1["width"] < 1e-6
     assert best.widest["at"] == "jump"  # two intervals join there
@@ -207,8 +212,8 @@ def test_the_lowest_V1_lies_where_the_interval_vanishes():
 
 
 def test_limits_are_named():
-    limits = {"lam": (0.31, 0.4), "sigma": (0.05, 0.3), "trail": (0.03, 0.1)}
-    best = found(Wanted(MEIJAARD, **limits, judged=(5.0, 5.0)))
+    limits = {"x": (0.31, 0.4), "y": (0.05, 0.3), "trail": (0.03, 0.1)}
+    best = found(Wanted(Family(MEIJAARD), **limits, judged=(5.0, 5.0)))
     assert best.widest["at"] == "limit of lam, limit of trail"
     assert best.widest["trail"] == pytest.approx(0.1)
     assert best.lowest_V1["at"] == "limit of lam, limit of sigma"
@@ -217,8 +222,8 @@ def test_limits_are_named():
 
 
 def test_stable_speeds_asked_for():
-    free = found(Wanted(MEIJAARD, judged=(5.0, 5.0)))
-    wanted = Wanted(MEIJAARD, judged=(5.0, 5.0), stable=(4.5, 6.0))
+    free = found(Wanted(Family(MEIJAARD), judged=(5.0, 5.0)))
+    wanted = Wanted(Family(MEIJAARD), judged=(5.0, 5.0), stable=(4.5, 6.0))
     best = found(wanted)
     assert best.lowest_V1["at"] == "edge of the speeds asked for"
     assert best.lowest_V1["V2"] == pytest.approx(6.0, abs=1e-6)
@@ -228,7 +233,7 @@ def test_stable_speeds_asked_for():
 
 
 def test_a_fixed_tilt():
-    best = found(Wanted(MEIJAARD, lam=(0.3, 0.3), judged=(5.0, 5.0)))
+    best = found(Wanted(Family(MEIJAARD), x=(0.3, 0.3), judged=(5.0, 5.0)))
     sigma = np.linspace(0, 0.3, 20001)
     rate = growth_rate_of(characteristic_table(MEIJAARD, 0.3, sigma), 5.0)
     assert best.fastest_decay["lam"] == 0.3
@@ -237,7 +242,7 @@ def test_a_fixed_tilt():
 
 
 def test_a_single_design():
-    best = found(Wanted(MEIJAARD, lam=(0.3, 0.3), sigma=(0.08, 0.08)))
+    best = found(Wanted(Family(MEIJAARD), x=(0.3, 0.3), y=(0.08, 0.08)))
     assert best.widest["lam"], best.widest["sigma"] == (0.3, 0.08)
     assert best.widest["V1"] == intervals_of(characteristic_table(MEIJAARD, 0.3, 0.08)).V1[0]
     assert len(best.pareto) == 1
@@ -246,7 +251,7 @@ def test_a_single_design():
 def test_unbounded_intervals_are_cut_at_the_cap():
     widths = []
     for cap in (20.0, 30.0):
-        best = found(Wanted(DIKAREV, V_max=cap, judged=(5.0, 5.0)))
+        best = found(Wanted(Family(DIKAREV), V_max=cap, judged=(5.0, 5.0)))
         assert best.widest["V2"] is None
         assert best.widest["upper"] == "unbounded"
         widths.append(best.widest["width"])
@@ -255,15 +260,15 @@ def test_unbounded_intervals_are_cut_at_the_cap():
 
 def test_intervals_above_the_cap_do_not_count():
     """The benchmark bicycle with this trail is stable from about 5 m/s on, never below."""
-    box = {"lam": (0.3, 0.4), "sigma": (0.2, 0.25)}
-    assert found(Wanted(MEIJAARD, **box, V_max=5.5, judged=(5.0, 5.0))).widest["V1"] < 5.5
-    best = found(Wanted(MEIJAARD, **box, V_max=4.0))
+    box = {"x": (0.3, 0.4), "y": (0.2, 0.25)}
+    assert found(Wanted(Family(MEIJAARD), **box, V_max=5.5, judged=(5.0, 5.0))).widest["V1"] < 5.5
+    best = found(Wanted(Family(MEIJAARD), **box, V_max=4.0))
     assert (best.widest, best.lowest_V1, best.fastest_decay, best.pareto) == (None, None, None, [])
     assert best.closest["growth_rate"] > 0
 
 
 def test_nothing_is_stable_as_asked():
-    best = found(Wanted(DIKAREV, stable=(1.0, 20.0)))
+    best = found(Wanted(Family(DIKAREV), stable=(1.0, 20.0)))
     assert best.widest is None
     lam, sigma = np.linspace(0, 0.6, 80)[:, None], np.linspace(0, 0.3, 80)
     table = characteristic_table(DIKAREV, lam, sigma)
@@ -275,7 +280,7 @@ def test_nothing_is_stable_as_asked():
 def test_a_region_that_the_grid_misses(monkeypatch):
     """On a grid of 11 × 11 the benchmark bicycle is nowhere stable over nearly its own range."""
     monkeypatch.setattr(module, "GRID", 11)
-    wanted = Wanted(MEIJAARD, judged=(5.0, 5.0), stable=(4.2, 6.02))
+    wanted = Wanted(Family(MEIJAARD), judged=(5.0, 5.0), stable=(4.2, 6.02))
     lam, sigma = np.linspace(0, 0.6, 11)[:, None], np.linspace(0, 0.3, 11)
     V1, V2, _, _ = intervals_of(characteristic_table(MEIJAARD, lam, sigma))
     assert not np.any((V1 <= 4.2) & (V2 >= 6.02))
@@ -287,9 +292,9 @@ def test_a_region_that_the_grid_misses(monkeypatch):
 @pytest.mark.parametrize(
     ("changes", "key", "words"),
     [
-        ({"lam": (0.5, 0.1)}, "lam", "the range 0.5:0.1 ends before it starts\ndid you mean 0.1:0.5?"),
-        ({"lam": (0.0, 2.0)}, "lam", "does not meet the ground"),
-        ({"sigma": (0.0, 1e9)}, "sigma", "out of range"),
+        ({"x": (0.5, 0.1)}, "lam", "the range 0.5:0.1 ends before it starts\ndid you mean 0.1:0.5?"),
+        ({"x": (0.0, 2.0)}, "lam", "does not meet the ground"),
+        ({"y": (0.0, 1e9)}, "sigma", "out of range"),
         ({"judged": (-1.0, 2.0)}, "judged", "-1 m/s is negative\nallowed: 0 and above"),
         ({"V_max": 0.0}, "V_max", "0 m/s is no cap"),
         ({"stable": (4.0, 31.0)}, "stable", "raise V_max to 31"),
@@ -298,6 +303,6 @@ def test_a_region_that_the_grid_misses(monkeypatch):
 )
 def test_contradictions(changes, key, words):
     with pytest.raises(InputError) as error:
-        Wanted(DIKAREV, **changes)
+        Wanted(Family(DIKAREV), **changes)
     assert error.value.key == (key,)
     assert words in str(error.value)

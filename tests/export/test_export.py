@@ -14,6 +14,7 @@ from bikestab.export import tables
 from bikestab.export.formats import file_format
 from bikestab.export.meshes import MESHES, readable_scale, save_mesh
 from bikestab.export.tables import INTERVALS, SKELETON, interval_blocks, save_table, skeleton_blocks
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import region_mesh
@@ -45,7 +46,7 @@ output: OUT
 def case(request, tmp_path_factory):
     """Bicycle, box, factors, mesh, and the folder with a file of each format."""
     bicycle, (box, scale) = Bicycle.preset(request.param), BOXES[request.param]
-    mesh = region_mesh(bicycle, *box, cells=40)
+    mesh = region_mesh(Family(bicycle), *box, cells=40)
     folder = tmp_path_factory.mktemp("mesh")
     for ending in MESHES:
         save_mesh(mesh, folder / f"region{ending}", scale, ABOUT)
@@ -171,11 +172,11 @@ def test_the_rim_is_on_a_closing_curve(case):
     found = intervals_of(characteristic_table(bicycle, lam, sigma))
     near = (np.abs(found.V1 - V[:, np.newaxis]) < 1e-4) & (np.abs(found.V2 - V[:, np.newaxis]) < 1e-4)
     assert np.where(near, found.V2 - found.V1, 0).max() < 1e-6  # rounding may leave an interval, a tiny one
-    curves = [curve for curve in trace(bicycle, *box, samples=321) if curve.closes]
+    curves = [curve for curve in trace(Family(bicycle), *box, samples=321) if curve.closes]
     for point in rim.T:
         gaps = []
         for curve in curves:
-            line = np.array([curve.lam, curve.sigma])
+            line = np.array([curve.x, curve.y])
             a, d = line[:, :-1], np.diff(line, axis=1)
             w = point[:2, np.newaxis] - a
             t = np.clip((w * d).sum(axis=0) / np.maximum((d * d).sum(axis=0), 1e-300), 0, 1)
@@ -332,7 +333,7 @@ def test_the_volume_is_read_in_layers(volume, tmp_path, monkeypatch):
 
 def test_skeleton_is_every_point_of_every_curve(tmp_path):
     bicycle = Bicycle.preset("dikarev1981")
-    curves = trace(bicycle, (0.0, 0.3), (0.0, 0.3), samples=41)
+    curves = trace(Family(bicycle), (0.0, 0.3), (0.0, 0.3), samples=41)
     curves.append(
         Curve("singular inertia", np.array([0.1, 0.2]), np.array([0.1, 0.1]), np.array([np.nan, 2]), False,
               ("box", "fold"))
@@ -344,10 +345,10 @@ def test_skeleton_is_every_point_of_every_curve(tmp_path):
     assert [{k: as_text(v) for k, v in row.items()} for row in table.to_pylist()] == rows
     for number, curve in enumerate(curves, 1):
         own = [row for row in rows if row["curve"] == str(number)]
-        assert [int(row["point"]) for row in own] == list(range(1, len(curve.lam) + 1))
-        for name in ("lam", "sigma", "V"):
+        assert [int(row["point"]) for row in own] == list(range(1, len(curve.x) + 1))
+        for name, values in (("lam", curve.x), ("sigma", curve.y), ("V", curve.V)):
             got = [float(row[name] or "nan") for row in own]
-            np.testing.assert_array_equal(got, getattr(curve, name))
+            np.testing.assert_array_equal(got, values)
         words = {(row["name"], row["closes"], row["start"], row["end"]) for row in own}
         assert words == {(curve.name, str(curve.closes).lower(), *curve.ends)}
     assert "inf" in {row["V"] for row in rows}

@@ -11,6 +11,7 @@ from matplotlib.text import Text
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.paper1981 import reproduce as module
 from bikestab.paper1981.box import LAM, SIGMA, V
@@ -115,9 +116,9 @@ def test_key_numbers():
 def test_ticks_are_on_the_stable_side(fixed, name):
     """Beside the points of each oriented curve: stable at its left, not at its right."""
     value = {"lam": 0.2, "sigma": 0.12}[fixed]
-    section = Section(Bicycle.preset("dikarev1981"), "refined", fixed, value, *module_plane(fixed))
+    section = Section(Family(Bicycle.preset("dikarev1981")), fixed, value)
     ends = {"lam": LAM, "sigma": SIGMA, "V": V}
-    width, height = (ends[axis][1] for axis in (section.x, section.y))
+    width, height = (ends[axis][1] for axis in section.axes)
     for x, y in edge_curves(section, name, np.linspace(0, width, 161), np.linspace(0, height, 161)):
         for points in ((x, y), (x[::-1], y[::-1])):
             a, b = oriented(section, CONDITIONS, *points)
@@ -131,10 +132,6 @@ def test_ticks_are_on_the_stable_side(fixed, name):
             )
             assert left.mean() > 0.9
             assert right.mean() < 0.1
-
-
-def module_plane(fixed):
-    return {"lam": ("sigma", "V"), "sigma": ("lam", "V")}[fixed]
 
 
 def test_the_arrow_points_into_the_region():

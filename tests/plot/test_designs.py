@@ -11,6 +11,7 @@ from bikestab.design import best as module
 from bikestab.design import search
 from bikestab.design.best import best_designs
 from bikestab.design.criteria import Wanted
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.plot.designs import draw_designs
 from bikestab.region.curves import Curve
@@ -18,7 +19,7 @@ from bikestab.speeds import intervals_of
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
 SPEED = (5.0, 5.0)
-PAPER, BENCHMARK = Wanted(DIKAREV, judged=SPEED), Wanted(MEIJAARD, judged=SPEED)
+PAPER, BENCHMARK = Wanted(Family(DIKAREV), judged=SPEED), Wanted(Family(MEIJAARD), judged=SPEED)
 found = functools.cache(best_designs)
 
 
@@ -72,12 +73,12 @@ def test_curves_have_names_and_their_own_lines():
 
 
 def test_what_is_not_as_asked_is_hatched():
-    _, legend = picture(Wanted(MEIJAARD, trail=(0.02, 0.2), judged=SPEED, stable=(5.0, 6.0)))
+    _, legend = picture(Wanted(Family(MEIJAARD), trail=(0.02, 0.2), judged=SPEED, stable=(5.0, 6.0)))
     assert "not stable from 5 to 6 m/s or other trail" in legend
 
 
 def test_a_picture_of_nothing():
-    wanted = Wanted(MEIJAARD, lam=(0.0, 0.1), judged=(5.0, 5.0))
+    wanted = Wanted(Family(MEIJAARD), x=(0.0, 0.1), judged=(5.0, 5.0))
     figure, legend = picture(wanted)
     assert [text.get_text() for text in figure.axes[0].texts] == ["no stable speed below 30 m/s"]
     assert "closest" in legend

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from mpmath import mp, mpf
 
 from bikestab.bicycle import Bicycle
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.curves import NAMES, trace
 from bikestab.region.skeleton import stable_ranges
@@ -20,7 +21,7 @@ LAM, SIGMA = (0.0, 0.6), (0.0, 0.5)
 @pytest.fixture(scope="module")
 def curves():
     return {
-        (name, delta): trace(bicycle.with_delta(delta), LAM, SIGMA, samples=241)
+        (name, delta): trace(Family(bicycle.with_delta(delta)), LAM, SIGMA, samples=241)
         for name, bicycle in (("1981", DIKAREV), ("2007", MEIJAARD))
         for delta in (0.0, 1.0)
     }
@@ -63,8 +64,8 @@ def exact_point(machine, delta, name, lam, sigma, V):
 def test_points_satisfy_the_defining_equations_in_40_digits(curves, which):
     machine = {"1981": PAPER, "2007": BENCHMARK}[which[0]]
     for curve in curves[which]:
-        for i in np.unique(np.linspace(1, len(curve.lam) - 2, 5).astype(int)):
-            point = float(curve.lam[i]), float(curve.sigma[i]), float(curve.V[i])
+        for i in np.unique(np.linspace(1, len(curve.x) - 2, 5).astype(int)):
+            point = float(curve.x[i]), float(curve.y[i]), float(curve.V[i])
             assert exact_point(machine, which[1], curve.name, *point) < 1e-10, (curve.name, point)
 
 
@@ -74,11 +75,11 @@ def test_the_curves_of_the_papers_bicycle(curves):
     fold = [curve for curve in found if curve.name == "fold"]
     assert len(fold) == 1
     assert set(fold[0].ends) == {"weave at infinity", "weave meets capsize"}
-    ends = sorted((float(fold[0].lam[i]), float(fold[0].sigma[i])) for i in (0, -1))
+    ends = sorted((float(fold[0].x[i]), float(fold[0].y[i])) for i in (0, -1))
     np.testing.assert_allclose(ends, [[0.0469790, 0.1515630], [0.0496178, 0.1533011]], atol=1e-6)
     for name in ("capsize at infinity", "weave at infinity"):
         (curve,) = [curve for curve in found if curve.name == name]
-        corner = [(x, y) for x, y in zip(curve.lam, curve.sigma, strict=True) if abs(x - 0.0881670) < 1e-6]
+        corner = [(x, y) for x, y in zip(curve.x, curve.y, strict=True) if abs(x - 0.0881670) < 1e-6]
         np.testing.assert_allclose(corner, [[0.0881669521, 0.1107011842]], atol=1e-9)
         assert np.all(np.isinf(curve.V))
 
@@ -87,13 +88,13 @@ def test_ends_meet_what_they_name(curves):
     for found in curves.values():
         for curve in found:
             for name, at_ in zip(curve.ends, (0, -1), strict=True):
-                here = curve.lam[at_], curve.sigma[at_]
+                here = curve.x[at_], curve.y[at_]
                 if name == "box":
                     edges = [here[0] - LAM[0], LAM[1] - here[0], here[1] - SIGMA[0], SIGMA[1] - here[1]]
                     assert min(edges) == 0
                 elif name != "closed":
                     others = [c for c in found if c.name == name and c is not curve]
-                    gap = min(np.hypot(c.lam - here[0], c.sigma - here[1]).min() for c in others)
+                    gap = min(np.hypot(c.x - here[0], c.y - here[1]).min() for c in others)
                     assert gap < 2e-3, (curve.name, name)  # a point of the other within a step of its samples
 
 
@@ -103,13 +104,13 @@ def test_nothing_is_missing(curves, which):
     bicycle = {"1981": DIKAREV, "2007": MEIJAARD}[which[0]].with_delta(which[1])
     lam = np.random.default_rng(3).uniform(0, 0.6, 40)
     closing = [curve for curve in curves[which] if curve.closes or "infinity" in curve.name]
-    for value, ranges in zip(lam, stable_ranges(bicycle, *SIGMA, lam=lam), strict=True):
+    for value, ranges in zip(lam, stable_ranges(Family(bicycle), *SIGMA, x=lam), strict=True):
         for end in {x for ends in ranges for x in ends} - set(SIGMA):
             gaps = []
             for curve in closing:
-                i = np.flatnonzero((curve.lam[:-1] - value) * (curve.lam[1:] - value) <= 0)
-                t = (value - curve.lam[i]) / (curve.lam[i + 1] - curve.lam[i])
-                gaps.extend(np.abs(curve.sigma[i] + t * (curve.sigma[i + 1] - curve.sigma[i]) - end))
+                i = np.flatnonzero((curve.x[:-1] - value) * (curve.x[1:] - value) <= 0)
+                t = (value - curve.x[i]) / (curve.x[i + 1] - curve.x[i])
+                gaps.extend(np.abs(curve.y[i] + t * (curve.y[i + 1] - curve.y[i]) - end))
             assert min(gaps, default=np.inf) < 1e-4, (value, end)  # of the chord between two of its points
 
 
@@ -117,13 +118,13 @@ def test_nothing_is_missing(curves, which):
 def test_what_happens_across(curves, which):
     """An interval appears across a closing curve; across the others only the kinds of its ends change."""
     bicycle = {"1981": DIKAREV, "2007": MEIJAARD}[which[0]].with_delta(which[1])
-    long = [curve for curve in curves[which] if len(curve.lam) > 20]
+    long = [curve for curve in curves[which] if len(curve.x) > 20]
     assert len(long) >= 5
     for curve in long:
-        along = np.array([np.gradient(curve.lam), np.gradient(curve.sigma)])[:, 3:-3]
+        along = np.array([np.gradient(curve.x), np.gradient(curve.y)])[:, 3:-3]
         aside = np.array([-along[1], along[0]]) / np.hypot(*along) * 1e-6
         sides = [
-            intervals_of(characteristic_table(bicycle, curve.lam[3:-3] + x, curve.sigma[3:-3] + y))
+            intervals_of(characteristic_table(bicycle, curve.x[3:-3] + x, curve.y[3:-3] + y))
             for x, y in (aside, -aside)
         ]
         number = np.abs(sides[0].number - sides[1].number)
@@ -145,11 +146,11 @@ def test_no_unbounded_interval_outside_its_curves(curves, which):
     named = {curve.name: curve for curve in curves[which, 0.0]}
     ends = []
     for name in ("weave at infinity", "capsize at infinity"):
-        order = np.argsort(named[name].sigma)
-        ends.append(np.interp(sigma, named[name].sigma[order], named[name].lam[order]))
+        order = np.argsort(named[name].y)
+        ends.append(np.interp(sigma, named[name].y[order], named[name].x[order]))
     left, right = ends
-    left[sigma > named["weave at infinity"].sigma.max()] = -np.inf  # the curve has left the box through λ = 0
-    corner = max(curve.sigma.min() for curve in named.values() if "infinity" in curve.name)
+    left[sigma > named["weave at infinity"].y.max()] = -np.inf  # the curve has left the box through λ = 0
+    corner = max(curve.y.min() for curve in named.values() if "infinity" in curve.name)
     expected = (lam > left) & (lam < right) & (sigma > corner)
     near = np.minimum(np.abs(lam - left), np.abs(lam - right)) < 1e-4  # chords of the curves
     np.testing.assert_array_equal(infinite[~near], expected[~near])
@@ -160,20 +161,20 @@ def test_no_unbounded_interval_outside_its_curves(curves, which):
 @given(machines)
 def test_random_machines(machine):
     bicycle = Bicycle.from_mapping(machine)
-    found = trace(bicycle, LAM, (0.0, 0.3), samples=61)
+    found = trace(Family(bicycle), LAM, (0.0, 0.3), samples=61)
     for curve in found:
         assert curve.name in NAMES.values()
-        assert len(curve.lam) == len(curve.sigma) == len(curve.V) > 1
-        assert np.all(np.isfinite(curve.lam) & np.isfinite(curve.sigma))
+        assert len(curve.x) == len(curve.y) == len(curve.V) > 1
+        assert np.all(np.isfinite(curve.x) & np.isfinite(curve.y))
         assert not curve.closes or "infinity" not in curve.name
     sigma = 0.1234
-    (ranges,) = stable_ranges(bicycle, *LAM, sigma=sigma)
+    (ranges,) = stable_ranges(Family(bicycle), *LAM, y=sigma)
     for a, b in ranges:
         if b - a > 0.05:  # what the coarse grid cannot miss
             for end in {a, b} - set(LAM):
                 i = [
-                    np.abs(np.interp(sigma, c.sigma[k : k + 2], c.lam[k : k + 2]) - end)
+                    np.abs(np.interp(sigma, c.y[k : k + 2], c.x[k : k + 2]) - end)
                     for c in found
-                    for k in np.flatnonzero((c.sigma[:-1] - sigma) * (c.sigma[1:] - sigma) <= 0)
+                    for k in np.flatnonzero((c.y[:-1] - sigma) * (c.y[1:] - sigma) <= 0)
                 ]
                 assert min(i, default=np.inf) < 0.02

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import ScanError
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.curves import trace
 from bikestab.region.events import Box
@@ -25,10 +26,15 @@ CASES = {
 }
 
 
+def family_case(name):
+    bicycle, *ends = CASES[name]
+    return Family(bicycle), *ends
+
+
 @pytest.fixture(scope="module", params=CASES)
 def case(request):
     bicycle, *ends = CASES[request.param]
-    return bicycle, ends, region_mesh(bicycle, *ends, cells=40)
+    return bicycle, ends, region_mesh(Family(bicycle), *ends, cells=40)
 
 
 def eigenvalues(bicycle, points):
@@ -75,7 +81,7 @@ def test_eigenvalues_are_where_the_kind_says(case):
 
 def test_no_holes_and_no_ragged_edge(case):
     bicycle, ends, mesh = case
-    assert len(mesh.open_edges(Box(bicycle, "refined", np.array(ends[:2]), ends[2]))) == 0
+    assert len(mesh.open_edges(Box(Family(bicycle), np.array(ends[:2]), ends[2]))) == 0
     sides = mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     edges, index, count = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
     assert count.max() == 2
@@ -90,7 +96,7 @@ def test_no_holes_and_no_ragged_edge(case):
 def test_a_torn_mesh_is_noticed(case):
     bicycle, ends, mesh = case
     torn = mesh._replace(triangles=np.delete(mesh.triangles, len(mesh.triangles) // 2, axis=0))
-    assert len(torn.open_edges(Box(bicycle, "refined", np.array(ends[:2]), ends[2]))) >= 1
+    assert len(torn.open_edges(Box(Family(bicycle), np.array(ends[:2]), ends[2]))) >= 1
 
 
 def test_the_outside_is_unstable(case):
@@ -126,12 +132,14 @@ def test_the_rim_is_the_skeleton(case):
     bicycle, ends, mesh = case
     shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
     rim = mesh.points[shared]
-    curves = [c for c in trace(bicycle, *ends, samples=321) if c.name in ("fold", "weave meets capsize")]
+    curves = [
+        c for c in trace(Family(bicycle), *ends, samples=321) if c.name in ("fold", "weave meets capsize")
+    ]
     for point in rim[:: max(len(rim) // 40, 1)]:
         gaps = []
         for curve in curves:
-            a = np.array([curve.lam[:-1], curve.sigma[:-1]])
-            d = np.array([curve.lam[1:], curve.sigma[1:]]) - a
+            a = np.array([curve.x[:-1], curve.y[:-1]])
+            d = np.array([curve.x[1:], curve.y[1:]]) - a
             w = point[:2, None] - a
             t = np.clip((w * d).sum(axis=0) / np.maximum((d * d).sum(axis=0), 1e-300), 0, 1)
             gaps.append(np.hypot(*(w - t * d)).min())
@@ -154,7 +162,7 @@ def test_decay_is_the_lowest_growth_rate_of_the_interval(case):
 
 
 def test_an_empty_box():
-    mesh = region_mesh(DIKAREV, (0.0, 0.1), (0.0, 0.05), (0.0, 10.0), cells=20)
+    mesh = region_mesh(Family(DIKAREV), (0.0, 0.1), (0.0, 0.05), (0.0, 10.0), cells=20)
     assert mesh.points.shape == (0, 3)
     assert mesh.triangles.shape == (0, 3)
     assert len(mesh.kind) == len(mesh.upper) == len(mesh.decay) == 0
@@ -165,14 +173,14 @@ def test_a_vertical_wall_is_refused():
     box = (0.0, 0.3), (0.0, 0.15), (0.0, 10.0)
     skates = Bicycle.preset("kooijman2011")
     with pytest.raises(ScanError, match="vertical wall"):
-        region_mesh(skates, *box, cells=20)
-    mesh = region_mesh(skates, *box, cells=20, whole=False)
+        region_mesh(Family(skates), *box, cells=20)
+    mesh = region_mesh(Family(skates), *box, cells=20, whole=False)
     assert len(mesh.triangles)
-    assert len(mesh.open_edges(Box(skates, "refined", np.array(box[:2]), box[2])))
+    assert len(mesh.open_edges(Box(Family(skates), np.array(box[:2]), box[2])))
 
 
 def test_both_kinds_are_there():
-    mesh = region_mesh(*CASES["1981 unbounded"], cells=30)
+    mesh = region_mesh(*family_case("1981 unbounded"), cells=30)
     assert set(mesh.kind) == {WEAVE, CAPSIZE}
     top = mesh.points[:, 2] == 20.0
     assert top.any()
@@ -180,7 +188,7 @@ def test_both_kinds_are_there():
 
 
 def test_more_cells_make_a_finer_mesh():
-    sizes = [len(region_mesh(*CASES["2007"], cells=n).triangles) for n in (20, 40)]
+    sizes = [len(region_mesh(*family_case("2007"), cells=n).triangles) for n in (20, 40)]
     assert 3 < sizes[1] / sizes[0] < 5
 
 
@@ -191,8 +199,8 @@ def test_random_machines(machine):
     bicycle = Bicycle.from_mapping(machine)
     ends = (0.0, 0.6), (0.0, 0.3), (0.5, 20.0)
     try:
-        mesh = region_mesh(bicycle, *ends, cells=25)
+        mesh = region_mesh(Family(bicycle), *ends, cells=25)
     except ScanError:
         return
-    assert len(mesh.open_edges(Box(bicycle, "refined", np.array(ends[:2]), ends[2]))) == 0
+    assert len(mesh.open_edges(Box(Family(bicycle), np.array(ends[:2]), ends[2]))) == 0
     assert np.isfinite(mesh.points).all()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from bikestab.bicycle import Bicycle
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, nearest_stable
 from bikestab.spectrum import growth_rate_of
@@ -19,7 +20,7 @@ def stable(bicycle, lam, sigma, model="refined"):
 @pytest.fixture(scope="module")
 def found():
     """The paper's bicycle at (0.1, 0.08), which it calls never stable."""
-    return nearest_stable(DIKAREV, 0.1, 0.08)
+    return nearest_stable(Family(DIKAREV), 0.1, 0.08)
 
 
 def test_keys_and_their_order(found):
@@ -49,13 +50,13 @@ def test_the_upper_end_of_the_search_is_the_upper_end(found):
 def test_a_range_of_lam_with_two_ends():
     """The benchmark bicycle with damping is stable at σ = 0.25 for λ around 0.07 and above 0.11 rad."""
     bicycle = MEIJAARD.with_delta(2.0)
-    near = nearest_stable(bicycle, 0.05, 0.25)
+    near = nearest_stable(Family(bicycle), 0.05, 0.25)
     low, high = near["lam_min"], near["lam_max"]
     assert 0.05 < low < high < 0.1
     for inside, outside in ((low, low - 1e-12), (high, high + 1e-12)):
         assert stable(bicycle, inside, 0.25)
         assert not stable(bicycle, outside, 0.25)
-    assert nearest_stable(bicycle, 0.1, 0.25)["lam_min"] > 0.1
+    assert nearest_stable(Family(bicycle), 0.1, 0.25)["lam_min"] > 0.1
 
 
 def test_the_nearer_of_two_ranges_of_lam():
@@ -67,7 +68,7 @@ def test_the_nearer_of_two_ranges_of_lam():
     assert len(starts) == 2
     gap = np.flatnonzero(~good & (lams > 0.015) & (lams < 0.2))
     for index, side in ((gap[0], "lower"), (gap[-1], "upper")):
-        near = nearest_stable(DIKAREV, float(lams[index]), sigma)
+        near = nearest_stable(Family(DIKAREV), float(lams[index]), sigma)
         assert (near["lam_max"] < lams[index]) == (side == "lower")
         ends = np.array([near["lam_min"], near["lam_max"]])
         assert np.abs(ends - lams[index]).min() < 2 * lams[1]
@@ -82,7 +83,7 @@ def test_nothing_helps():
     lam, sigma = np.linspace(*LAM_RANGE, 601), np.linspace(*SIGMA_RANGE, 501)
     assert not stable(bicycle, 0.0, sigma, "unrefined").any()
     assert not stable(bicycle, lam, 0.0, "unrefined").any()
-    near = nearest_stable(bicycle, 0.0, 0.0, model="unrefined")
+    near = nearest_stable(Family(bicycle, "unrefined"), 0.0, 0.0)
     assert (near["sigma_min"], near["lam_min"], near["lam_max"]) == (None, None, None)
     assert near["growth_rate"] > 0
 
@@ -91,12 +92,12 @@ def test_only_larger_trails_are_searched():
     """The benchmark bicycle at λ = 0.165 is stable around σ = 0.15, but no longer at 0.35."""
     assert stable(MEIJAARD, 0.165, 0.15)
     assert not stable(MEIJAARD, 0.165, 0.35)
-    assert nearest_stable(MEIJAARD, 0.165, 0.35)["sigma_min"] is None
+    assert nearest_stable(Family(MEIJAARD), 0.165, 0.35)["sigma_min"] is None
 
 
 def test_beyond_the_searched_trails():
     assert not stable(MEIJAARD, 0.0, 0.6)
-    assert nearest_stable(MEIJAARD, 0.0, 0.6)["sigma_min"] is None
+    assert nearest_stable(Family(MEIJAARD), 0.0, 0.6)["sigma_min"] is None
 
 
 @pytest.mark.parametrize("lam", [0.0, 0.1, 0.15])
@@ -104,7 +105,7 @@ def test_beyond_the_searched_trails():
     "bicycle", [DIKAREV, DIKAREV.with_delta(1.0), MEIJAARD], ids=["1981", "damped", "2007"]
 )
 def test_the_speed_of_the_smallest_growth_rate(bicycle, lam):
-    near = nearest_stable(bicycle, lam, 0.02)
+    near = nearest_stable(Family(bicycle), lam, 0.02)
     table = characteristic_table(bicycle, lam, 0.02)
     dense = growth_rate_of(table, np.linspace(0, V_MAX, 100_001))
     assert near["growth_rate"] == pytest.approx(float(growth_rate_of(table, near["V"])), rel=1e-12)
@@ -114,7 +115,7 @@ def test_the_speed_of_the_smallest_growth_rate(bicycle, lam):
 
 
 def test_the_model_counts():
-    refined, plain = (nearest_stable(DIKAREV, 0.1, 0.08, model=model) for model in ("refined", "unrefined"))
+    refined, plain = (nearest_stable(Family(DIKAREV, model), 0.1, 0.08) for model in ("refined", "unrefined"))
     assert refined["sigma_min"] != plain["sigma_min"]
     if plain["sigma_min"] is not None:
         assert stable(DIKAREV, 0.1, plain["sigma_min"], "unrefined")

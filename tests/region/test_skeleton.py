@@ -7,14 +7,14 @@ import pytest
 from hypothesis import example, given, settings
 
 from bikestab.bicycle import Bicycle
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.skeleton import (
     Line,
     crossings,
     curve_functions,
-    lam_min,
+    lowest_stable,
     reduced,
-    sigma_min,
     stable_ranges,
 )
 from bikestab.routh import stable
@@ -40,10 +40,10 @@ def test_a_million_random_designs_have_a_stable_speed_exactly_within_the_ranges(
     rng = np.random.default_rng(1981)
     lam = rng.uniform(0, 0.6, 200)
     sigma = rng.uniform(0, 0.5, (200, 5000 if bicycle.delta == 0 else 1000))
-    ranges = stable_ranges(bicycle, 0, 0.5, lam=lam)
+    ranges = stable_ranges(Family(bicycle), 0, 0.5, x=lam)
     inside = np.array([within(row, found) for row, found in zip(sigma, ranges, strict=True)])
     np.testing.assert_array_equal(has_stable(bicycle, lam[:, None], sigma), inside)
-    least = sigma_min(bicycle, lam)[:, None]
+    least = lowest_stable(Family(bicycle), 0, 0.5, x=lam)[:, None]
     assert not has_stable(bicycle, lam[:, None], sigma)[~(sigma > least)].any()  # NaN: nowhere at this λ
     assert 0.3 < inside.mean() < 1
 
@@ -53,7 +53,7 @@ def test_no_eigenvalue_is_stable_below_the_smallest_trail(bicycle):
     """The same without the intervals of ``speeds``: the conditions at 250 000 random points."""
     rng = np.random.default_rng(2007)
     lam = rng.uniform(0, 0.6, 300)
-    least = sigma_min(bicycle, lam)
+    least = lowest_stable(Family(bicycle), 0, 0.5, x=lam)
     lam, least = (values[least != 0][:100] for values in (lam, least))  # at 0 nothing is below
     sigma = np.where(np.isnan(least), 0.5, least)[:, None] * rng.uniform(0, 1 - 1e-9, (100, 100))
     V = rng.uniform(0, 30, (100, 100, 25))
@@ -67,23 +67,25 @@ def test_no_eigenvalue_is_stable_below_the_smallest_trail(bicycle):
 def test_the_smallest_tilt_is_the_same_curve():
     """λ → smallest σ and σ → smallest λ are inverse where the curve falls."""
     lam = np.array([0.17, 0.2, 0.3, 0.5])
-    sigma = sigma_min(DIKAREV, lam)
-    np.testing.assert_allclose(lam_min(DIKAREV, sigma, low=0.1), lam, atol=1e-11)
+    sigma = lowest_stable(Family(DIKAREV), 0, 0.5, x=lam)
+    np.testing.assert_allclose(lowest_stable(Family(DIKAREV), 0.1, 0.6, y=sigma), lam, atol=1e-11)
 
 
 def test_shapes_and_nothing_there():
-    assert sigma_min(MEIJAARD, 0.2).shape == ()
-    assert sigma_min(MEIJAARD, np.full((2, 3), 0.2)).shape == (2, 3)
-    assert np.isnan(sigma_min(MEIJAARD, 0.0))
-    assert stable_ranges(MEIJAARD, 0, 0.5, lam=[0.0, 0.2])[0] == []
-    assert np.isnan(lam_min(MEIJAARD, 0.0, high=0.1))
+    assert lowest_stable(Family(MEIJAARD), 0, 0.5, x=0.2).shape == ()
+    assert lowest_stable(Family(MEIJAARD), 0, 0.5, x=np.full((2, 3), 0.2)).shape == (2, 3)
+    assert np.isnan(lowest_stable(Family(MEIJAARD), 0, 0.5, x=0.0))
+    assert stable_ranges(Family(MEIJAARD), 0, 0.5, x=[0.0, 0.2])[0] == []
+    assert np.isnan(lowest_stable(Family(MEIJAARD), 0, 0.1, y=0.0))
 
 
 def test_ranges_of_whole_numbers_and_long_ones():
     damped = DIKAREV.with_delta(0.5)
-    expected = sigma_min(damped, [0.05, 0.1, 0.2])
+    expected = lowest_stable(Family(damped), 0, 0.5, x=[0.05, 0.1, 0.2])
     for high in (1, 5.0, 100):
-        np.testing.assert_allclose(sigma_min(damped, [0.05, 0.1, 0.2], high=high), expected, atol=1e-11)
+        np.testing.assert_allclose(
+            lowest_stable(Family(damped), 0, high, x=[0.05, 0.1, 0.2]), expected, atol=1e-11
+        )
     assert not has_stable(damped, np.array([0.05, 0.1, 0.2]), expected - 1e-9).any()
     assert has_stable(damped, np.array([0.05, 0.1, 0.2]), expected + 1e-9).all()
 
@@ -92,7 +94,7 @@ def test_ranges_of_whole_numbers_and_long_ones():
 @given(machines, sigmas)
 def test_random_machines(machine, sigma):
     bicycle = Bicycle.from_mapping(machine)
-    ranges = stable_ranges(bicycle, 0, 0.6, sigma=sigma)[0]
+    ranges = stable_ranges(Family(bicycle), 0, 0.6, y=sigma)[0]
     lam = np.linspace(0, 0.6, 1201)
     far = np.abs(lam[:, None] - np.array([*sum(ranges, ()), -1.0])).min(axis=1) > 1e-9
     np.testing.assert_array_equal(has_stable(bicycle, lam, sigma)[far], within(lam, ranges)[far])
@@ -110,7 +112,7 @@ FAST = {  # its weave speeds meet at 275 m/s, where the discriminant is mostly r
 @example(FAST)
 def test_the_kinds_of_the_ends_change_only_at_crossings(machine):
     bicycle = Bicycle.from_mapping(machine)
-    line = Line(bicycle, "refined", None, 0.1)
+    line = Line(Family(bicycle), None, 0.1)
     cuts = crossings(line, 0.0, 0.6)[0]
     for a, b in pairwise(cuts):
         if b - a > 1e-6:
@@ -120,7 +122,7 @@ def test_the_kinds_of_the_ends_change_only_at_crossings(machine):
 
 
 def test_cuts_are_ascending_from_end_to_end():
-    cuts = crossings(Line(DIKAREV, "refined", [0.05, 0.1, 0.2], None), 0.0, 0.3)
+    cuts = crossings(Line(Family(DIKAREV), [0.05, 0.1, 0.2], None), 0.0, 0.3)
     assert np.all(np.diff(cuts, axis=1) >= 0)
     np.testing.assert_array_equal(cuts[:, 0], 0)
     np.testing.assert_array_equal(cuts[:, -1], 0.3)
