@@ -9,14 +9,18 @@ TYPE_CHECKING = False  # type checkers take it for True; typing's own costs more
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
     from bikestab.errors import BikestabError, InputError, ScanError
+    from bikestab.pipeline import Scan, open_volume, scan
     from bikestab.speeds import KINDS, Intervals
     from bikestab.stability import eigenvalues, growth_rate, modes, stable, stable_intervals
+    from bikestab.volume import Volume
 
 _HOME = {  # module → public names
     "bicycle": ("Bicycle",),
     "errors": ("BikestabError", "InputError", "ScanError"),
+    "pipeline": ("Scan", "open_volume", "scan"),
     "speeds": ("KINDS", "Intervals"),
     "stability": ("eigenvalues", "growth_rate", "modes", "stable", "stable_intervals"),
+    "volume": ("Volume",),
 }
 __all__ = [
     "KINDS",
@@ -24,10 +28,14 @@ __all__ = [
     "BikestabError",
     "InputError",
     "Intervals",
+    "Scan",
     "ScanError",
+    "Volume",
     "eigenvalues",
     "growth_rate",
     "modes",
+    "open_volume",
+    "scan",
     "stable",
     "stable_intervals",
 ]

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from copy import copy
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import h5py
 import numpy as np
@@ -17,11 +17,19 @@ from bikestab.errors import InputError, nearest
 from bikestab.fields import FIELDS, Axis
 from bikestab.model import Floats, Model
 
+if TYPE_CHECKING:
+    import xarray
+
 
 class Volume:
     """A complete volume, open for reading. Raises InputError for any other file.
 
     ``swept`` has the values of each axis of a sweep by its name; ``at`` chooses one of its machines.
+
+    >>> import bikestab as bs
+    >>> with bs.scan("configs/quick.yaml", ["slices=[]", "output=out/few"]).open() as volume:
+    ...     volume.axis("V")[:3], volume.read("stable", (20, 16, slice(22, 25))), volume.model
+    (array([0. , 0.2, 0.4]), array([1, 1, 0], dtype=uint8), 'refined')
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -60,6 +68,10 @@ class Volume:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the file; all volumes that ``at`` gave share it."""
         self.file.close()
 
     def text(self, name: str) -> str:
@@ -89,6 +101,21 @@ class Volume:
     def fields(self) -> list[str]:
         """The names of the (lam, sigma, V) fields in the file."""
         return [name for name in FIELDS if name in self.file]
+
+    def to_xarray(self) -> xarray.Dataset:
+        """An ``xarray.Dataset`` with named axes and units; of a sweep the chosen machine, or all.
+
+        Values are read when they are needed. The dataset has the file open by itself, until its ``close()``.
+        Raises InputError without the extra ``xarray``.
+        """
+        try:
+            import h5netcdf  # noqa: F401  # the engine below
+            import xarray
+        except ImportError:
+            hint = 'it needs the extra: pip install "bikestab[xarray]"'
+            raise InputError("cannot be opened with xarray", place=str(self.path), hint=hint) from None
+        data = xarray.open_dataset(self.path, engine="h5netcdf")
+        return data.isel({name: number for name, number in self._chosen.items() if name in data.dims})
 
     def at(self, values: Mapping[str, float]) -> Volume:
         """The volume of one machine of the sweep, at these values of its axes; itself without a sweep.

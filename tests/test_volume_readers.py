@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 import pytest
 
+import bikestab as bs
 from bikestab.errors import InputError
 from bikestab.fields import AXES
 from bikestab.model import characteristic_table
@@ -42,6 +43,38 @@ def test_xarray(equal, own, engine):
         assert np.isposinf(data.V2[2, 2, 1])
         assert np.isnan(data.V2[0, 0, 0])
         np.testing.assert_array_equal(data.lam, own[1].grid.values("lam"))
+
+
+def test_volume_in_xarray(equal, own):
+    for path, _ in (equal, own):
+        with bs.open_volume(path) as volume, xarray.open_dataset(path, engine="netcdf4") as expected:
+            data = volume.to_xarray()
+            xarray.testing.assert_identical(data.drop_attrs(), expected.drop_attrs())
+            for name in volume.fields:
+                assert data[name].dims == AXES
+                np.testing.assert_array_equal(data[name], volume.read(name))
+            assert data.growth_rate.attrs["units"] == "s-1"
+            assert [data[name].attrs["units"] for name in AXES] == ["rad", "1", "m s-1"]
+        assert data.V1.isel(lam=0, sigma=0).shape == data.interval.shape  # it outlives the volume
+        data.close()
+
+
+def test_one_machine_of_a_sweep_in_xarray(tmp_path, in_an_empty_folder):
+    config = config_of(EQUAL + "sweep: {delta: [0, 1, 2]}\n", tmp_path)
+    with (
+        bs.open_volume(run_scan(config).path) as volume,
+        volume.to_xarray() as every,
+        volume.at({"delta": 1}).to_xarray() as one,
+    ):
+        xarray.testing.assert_identical(one, every.sel(delta=1.0))
+        assert one.stable.dims == AXES
+        np.testing.assert_array_equal(one.stable, volume.at({"delta": 1}).read("stable"))
+
+
+def test_without_xarray(equal, monkeypatch):
+    monkeypatch.setitem(sys.modules, "h5netcdf", None)
+    with bs.open_volume(equal[0]) as volume, pytest.raises(bs.InputError, match=r"bikestab\[xarray\]"):
+        volume.to_xarray()
 
 
 def test_netcdf4(equal):

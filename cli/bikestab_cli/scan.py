@@ -5,8 +5,9 @@ from __future__ import annotations
 import sys
 import time
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.options import json_option, print_json
@@ -15,9 +16,6 @@ from bikestab_cli.progress import progress
 if TYPE_CHECKING:
     from bikestab.config.scanconfig import ScanConfig
     from bikestab.scanning.run import ScanResult
-    from bikestab.volume import Volume
-
-MOST_DRAWN = 8  # machines of a sweep
 
 
 @click.command("scan")
@@ -62,6 +60,7 @@ def command(
     """
     from bikestab.config.file import load_config
     from bikestab.errors import InputError
+    from bikestab.plot.pictures import draw_pictures
     from bikestab.scanning.run import check_size, volume_path
 
     if jobs and scheduler:
@@ -85,7 +84,7 @@ def command(
                 click.echo(f"warning: {config.machine.name}: {text}", err=True)
             start = time.perf_counter()
             result = _run(name, config, force, jobs, scheduler or "", quiet)
-            pictures = _draw(config, result)
+            pictures = draw_pictures(config, result.path, partial(click.echo, err=True))
             seconds = time.perf_counter() - start
             done.append(_summary(name, config, result, pictures))
             if not as_json:
@@ -112,47 +111,6 @@ def _run(
             if tiles_path(config).stat().st_size:
                 hint = f"{name}: what is finished is kept; the same command goes on from there"
         raise KeyboardInterrupt(hint) from None
-
-
-def _draw(config: ScanConfig, result: ScanResult) -> list[Path]:
-    from bikestab.volume import Volume
-
-    pictures: list[Path] = []
-    if len(config.members) > MOST_DRAWN:
-        values = " ".join(f"--at {name}={value:g}" for name, value in config.members[0].values.items())
-        text = f"pictures of {len(config.members)} machines are not drawn; draw one with, for example,"
-        click.echo(f"note: {text} 'bikestab slice {result.path} --lam VALUE {values}'", err=True)
-        return pictures
-    with Volume(result.path) as volume:
-        for member in config.members:
-            pictures += _draw_machine(config, volume.at(member.values), member.values)
-    return pictures
-
-
-def _draw_machine(config: ScanConfig, volume: Volume, values: dict[str, float]) -> list[Path]:
-    from bikestab.plot.files import save, slice_name
-    from bikestab.plot.region import draw_region
-    from bikestab.plot.slices import draw_slice, on_grid
-
-    pictures = []
-    folder = volume.path.parent
-    path = folder / slice_name(values, "region")
-    try:
-        figure = draw_region(volume)
-    except Exception as error:  # the volume and the other pictures are worth more than this one
-        text = f"{type(error).__name__}: {error}".rstrip(": ")
-        click.echo(f"warning: {path} cannot be drawn ({text}); please report this", err=True)
-    else:
-        save(figure, path)
-        pictures.append(path)
-    fields: tuple[Literal["growth_rate", "probability"], ...] = ("growth_rate", "probability")
-    for plane in config.slices:
-        fixed, value = plane.fixed
-        for field in fields[: 2 if config.ensemble else 1]:
-            at = value if field == "growth_rate" else on_grid(volume, fixed, value)
-            pictures.append(folder / slice_name({fixed: at, **values}, field))
-            save(draw_slice(volume, fixed, value, field), pictures[-1])
-    return pictures
 
 
 def _line(name: str, result: ScanResult, pictures: list[Path], seconds: float) -> str:

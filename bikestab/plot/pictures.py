@@ -1,0 +1,55 @@
+"""The pictures of a scan: those its config asks for, of each of its machines."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Literal
+
+from bikestab.config.scanconfig import ScanConfig
+from bikestab.plot import region
+from bikestab.plot.files import save, slice_name
+from bikestab.plot.slices import draw_slice, on_grid
+from bikestab.volume import Volume
+
+MOST_DRAWN = 8  # machines of a sweep
+
+
+def draw_pictures(config: ScanConfig, path: str | Path, tell: Callable[[str], None]) -> list[Path]:
+    """Draw the pictures of the volume at ``path`` beside it; ``tell`` is called with what cannot be drawn."""
+    if len(config.members) > MOST_DRAWN:
+        values = " ".join(f"--at {name}={value:g}" for name, value in config.members[0].values.items())
+        tell(
+            f"note: pictures of {len(config.members)} machines are not drawn; draw one with, for example, "
+            f"'bikestab slice {path} --lam VALUE {values}'"
+        )
+        return []
+    with Volume(path) as volume:
+        return [
+            picture
+            for member in config.members
+            for picture in _of_one(config, volume.at(member.values), member.values, tell)
+        ]
+
+
+def _of_one(
+    config: ScanConfig, volume: Volume, values: Mapping[str, float], tell: Callable[[str], None]
+) -> list[Path]:
+    folder, pictures = volume.path.parent, []
+    path = folder / slice_name(values, "region")
+    try:
+        figure = region.draw_region(volume)
+    except Exception as error:  # the volume and the other pictures are worth more than this one
+        text = f"{type(error).__name__}: {error}".rstrip(": ")
+        tell(f"warning: {path} cannot be drawn ({text}); please report this")
+    else:
+        save(figure, path)
+        pictures.append(path)
+    fields: tuple[Literal["growth_rate", "probability"], ...] = ("growth_rate", "probability")
+    for plane in config.slices:
+        fixed, value = plane.fixed
+        for field in fields[: 2 if config.ensemble else 1]:
+            at = value if field == "growth_rate" else on_grid(volume, fixed, value)
+            pictures.append(folder / slice_name({fixed: at, **values}, field))
+            save(draw_slice(volume, fixed, value, field), pictures[-1])
+    return pictures
