@@ -9,7 +9,10 @@ import math
 from typing import Literal
 
 Verdict = Literal["holds", "holds with limits", "does not hold"]
-HOLDS, LIMITS, FAILS = "holds", "holds with limits", "does not hold"
+HOLDS: Verdict = "holds"
+LIMITS: Verdict = "holds with limits"
+FAILS: Verdict = "does not hold"
+VERDICTS = (HOLDS, LIMITS, FAILS)
 
 CLAIMS = {
     1: "Rectilinear motion of an uncontrolled bicycle is stable, for any relation of the physical "
@@ -41,8 +44,8 @@ RULES = {
 def judge_finite(in_box: float, beyond: float) -> Verdict:
     """Conclusion 1, from the shares of designs with an unbounded interval or with several, in two boxes."""
     if in_box > 0:
-        return "does not hold"
-    return "holds with limits" if beyond > 0 else "holds"
+        return FAILS
+    return LIMITS if beyond > 0 else HOLDS
 
 
 def judge_widening(along_sigma: float, sigma_from: float | None, reaches_zero: bool) -> Verdict:
@@ -50,8 +53,8 @@ def judge_widening(along_sigma: float, sigma_from: float | None, reaches_zero: b
     λ does, and whether it does so down to λ = 0.
     """
     if sigma_from is None or along_sigma < THRESHOLDS["nearly_all"]:
-        return "does not hold"
-    return "holds" if reaches_zero else "holds with limits"
+        return FAILS
+    return HOLDS if reaches_zero else LIMITS
 
 
 def judge_margin(apart: float | None) -> Verdict:
@@ -59,15 +62,15 @@ def judge_margin(apart: float | None) -> Verdict:
     box; None without stable designs.
     """
     if apart is None:
-        return "does not hold"
-    return "holds" if apart <= THRESHOLDS["one_optimum"] else "holds with limits"
+        return FAILS
+    return HOLDS if apart <= THRESHOLDS["one_optimum"] else LIMITS
 
 
 def judge_damping(marked_from: float | None) -> Verdict:
     """Conclusion 4, from the lowest δ [kg m²/s] at which a boundary has moved markedly."""
     if marked_from is None or marked_from > THRESHOLDS["dampers"]:
-        return "holds"
-    return "holds with limits" if marked_from > THRESHOLDS["bearings"] else "does not hold"
+        return HOLDS
+    return LIMITS if marked_from > THRESHOLDS["bearings"] else FAILS
 
 
 def first_marked(deltas: list[float], changes: list[float | None]) -> float | None:

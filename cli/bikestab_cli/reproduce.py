@@ -34,14 +34,14 @@ def command(output: str, quick: bool) -> None:
       bikestab reproduce --quick -o out/quick-report
     """
     from bikestab.paper1981.box import FULL, QUICK
-    from bikestab.paper1981.report import key_number
+    from bikestab.paper1981.report import decisive_numbers
     from bikestab.paper1981.reproduce import reproduce
 
     def progress(words: str) -> None:
         if sys.stderr.isatty():
             click.echo(f"{words} ...", err=True)
 
-    data = reproduce(output, size=QUICK if quick else FULL, progress=progress)
-    for number, part in data["conclusions"].items():
-        click.echo(f"conclusion {number}: {part['verdict']}: {key_number(data, number)}")
+    study = reproduce(output, sampling=QUICK if quick else FULL, progress=progress)
+    for number, judged in study.conclusions.by_number().items():
+        click.echo(f"conclusion {number}: {judged.verdict}: {decisive_numbers(study, number)}")
     click.echo(f"report: {Path(output) / 'report.md'}")

@@ -6,22 +6,25 @@ import pytest
 from bikestab_cli.main import main
 from matplotlib.figure import Figure
 
-from bikestab.paper1981 import box as paper
 from bikestab.paper1981 import reproduce
-from tests.small import study
+from bikestab.paper1981.box import FULL, QUICK
+from bikestab.paper1981.study import FIGURES
+from tests.small import record
 
 
 @pytest.fixture
 def run(monkeypatch, capsys, tmp_path):
     sizes = []
 
-    def computed(bicycle, size, progress):
-        sizes.append(size)
+    def computed(bicycle, sampling, progress):
+        sizes.append(sampling)
         progress("everything")
-        return study()
+        return record()
 
     monkeypatch.setattr(reproduce, "study", computed)
-    monkeypatch.setattr(reproduce, "_figures", lambda data, size: ((n, Figure()) for n in reproduce.FIGURES))
+    monkeypatch.setattr(
+        reproduce, "draw_all", lambda numbers, sampling: ((name, Figure()) for name in FIGURES)
+    )
     monkeypatch.chdir(tmp_path)
 
     def run_it(*args):
@@ -35,7 +38,7 @@ def run(monkeypatch, capsys, tmp_path):
 
 def test_one_line_for_each_conclusion(run, tmp_path):
     code, out, err, sizes = run()
-    assert (code, err, sizes) == (0, "", [paper.FULL])
+    assert (code, err, sizes) == (0, "", [FULL])
     lines = out.splitlines()
     assert len(lines) == 5
     assert lines[0].startswith("conclusion 1: does not hold: no upper limit for 3.")
@@ -48,7 +51,7 @@ def test_one_line_for_each_conclusion(run, tmp_path):
 
 def test_quick(run, tmp_path):
     code, out, _, sizes = run("--quick", "-o", "there")
-    assert (code, sizes) == (0, [paper.QUICK])
+    assert (code, sizes) == (0, [QUICK])
     assert out.endswith("report: there/report.md\n")
 
 

@@ -1,7 +1,7 @@
 """Other readings of the printed values."""
 
 from bikestab.bicycle import Bicycle
-from bikestab.paper1981.readings import judged
+from bikestab.paper1981.readings import judge_reading
 from tests.small import TINY, all_readings, study
 
 FINITE = "A1 ⇄ B1, A2 ⇄ B2, B2 = 0.36"  # with C = 0.5, the printed value
@@ -18,25 +18,25 @@ def test_there_are_36():
 
 
 def test_verdicts_of_the_printed_values_are_those_of_the_study():
-    found = judged(all_readings()["as printed"], TINY)
+    found = judge_reading(all_readings()["as printed"], TINY.grid_readings)
     study_verdicts = {number: part["verdict"] for number, part in study()["conclusions"].items()}
-    assert found["verdicts"] == study_verdicts
-    assert not found["rigid"]
+    assert found.verdicts == study_verdicts
+    assert not found.rigid
 
 
 def test_the_reading_that_is_bounded_in_the_box():
     """Unbounded intervals from σ ≈ 0.156 on only."""
-    found = judged(all_readings()[FINITE], TINY)
-    assert found["shares"]["unbounded"] == 0
-    assert found["shares_wider_box"]["unbounded"] > 0
-    assert found["verdicts"]["1"] == "holds with limits"
+    found = judge_reading(all_readings()[FINITE], TINY.grid_readings)
+    assert found.shares.unbounded == 0
+    assert found.shares_wider_box.unbounded > 0
+    assert found.verdicts["1"] == "holds with limits"
 
 
 def test_a_possible_machine_refutes_conclusion_1_too():
-    found = judged(all_readings()["A1 ⇄ B1, C = 0.1"], TINY)
-    assert found["rigid"]
-    assert found["verdicts"]["1"] == "does not hold"
-    assert found["formula_disagreements"] == 0
+    found = judge_reading(all_readings()["A1 ⇄ B1, C = 0.1"], TINY.grid_readings)
+    assert found.rigid
+    assert found.verdicts["1"] == "does not hold"
+    assert found.formula_disagreements == 0
 
 
 def test_counts_add_up():

@@ -1,12 +1,51 @@
-"""Random machines that could be built: two rigid parts, the wheels within them."""
+"""Random machines that could be built, two rigid parts with the wheels within them, and what they show."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from bikestab.bicycle import Bicycle
+from bikestab.paper1981.box import Sampling
+from bikestab.paper1981.maps import map_designs
+
+
+@dataclass(frozen=True)
+class RandomMachines:
+    """How many random machines have stable designs in the paper's box, and such without upper limit."""
+
+    machines: int
+    designs_each: int
+    designs: int
+    with_stable: float
+    with_unbounded: float
+    with_several: float
+    stable_designs: float
+    unbounded_designs: float
+    formula_disagreements: int
+
+
+def study_random_machines(sampling: Sampling) -> RandomMachines:
+    """The stable speeds of random machines over the paper's box."""
+    maps = [map_designs(machine, sampling.grid_machines) for machine in random_machines(sampling.machines)]
+    stable = np.array([(designs.number > 0).mean() for designs in maps])
+    unbounded = np.array([designs.unbounded.mean() for designs in maps])
+    several = np.array([(designs.number > 1).mean() for designs in maps])
+    return RandomMachines(
+        machines=sampling.machines,
+        designs_each=sampling.grid_machines**2,
+        designs=sampling.machines * sampling.grid_machines**2,
+        with_stable=float(np.mean(stable > 0)),
+        with_unbounded=float(np.mean(unbounded > 0)),
+        with_several=float(np.mean(several > 0)),
+        stable_designs=float(stable.mean()),
+        unbounded_designs=float(unbounded.mean()),
+        formula_disagreements=int(
+            sum(np.count_nonzero(designs.formula != designs.unbounded) for designs in maps)
+        ),
+    )
 
 
 def random_machines(number: int, seed: int = 1981) -> Iterator[Bicycle]:

@@ -1,0 +1,66 @@
+"""The refined and the unrefined model side by side."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from mpl_toolkits.mplot3d import Axes3D
+
+from bikestab.bicycle import Bicycle
+from bikestab.family import Family
+from bikestab.model import Model
+from bikestab.paper1981.box import SIGMA, V
+from bikestab.paper1981.pictures.ticks import ENDS, draw_ticked
+from bikestab.plot.axes import label_axes
+from bikestab.plot.lines import entry, legend_below
+from bikestab.plot.region import draw_mesh
+from bikestab.region.mesh import Mesh
+from bikestab.region.section import Section, zero_curves
+from bikestab.routh import conditions
+
+_SURFACES: dict[str, tuple[str, Any, str]] = {  # of each condition: colour (Okabe and Ito 2008), line, words
+    "p0": ("#d55e00", (0, (5, 1.5)), "p₀ = 0, capsize"),
+    "p1": ("#009e73", (0, (1, 1)), "p₁ = 0"),
+    "p2": ("#cc79a7", (0, (3, 1, 1, 1)), "p₂ = 0"),
+    "hurwitz3": ("#0072b2", "-", "Δ₃ = 0, weave"),
+}
+_STABLE = "#cfe8f7"
+_TOP = V[1] / 2  # m/s
+
+
+def draw_refinement(bicycle: Bicycle, lam: float, meshes: dict[Model, Mesh], samples: int) -> Figure:
+    """Both models side by side: the conditions at one λ over (σ, V), and the regions."""
+    figure = Figure(figsize=(11, 9.6), layout="constrained")
+    grid = figure.add_gridspec(2, 2, height_ratios=[1, 1.25])
+    sheets: dict[str, Any] = {}
+    for column, (model, mesh) in enumerate(meshes.items()):
+        section = Section(Family(bicycle, model), "lam", lam)
+        _conditions(figure.add_subplot(grid[0, column]), section, samples)
+        space = cast("Axes3D", figure.add_subplot(grid[1, column], projection="3d", computed_zorder=False))
+        sheets |= {str(handle.get_label()): handle for handle in draw_mesh(space, mesh, list(ENDS.values()))}
+    handles: list[Any] = [
+        entry(f"{words} (ticks: positive)", color=colour, lw=1.7, ls=style)
+        for colour, style, words in _SURFACES.values()
+    ]
+    handles.append(Patch(facecolor=_STABLE, label="stable"))
+    legend_below(figure, [*handles, *sheets.values()])
+    return figure
+
+
+def _conditions(ax: Axes, section: Section, samples: int) -> None:
+    """Where the conditions are zero in one plane, and where all hold."""
+    X, Y = np.linspace(*SIGMA, samples), np.linspace(0, _TOP, samples)
+    table, speed = section.table_and_speed(X[np.newaxis, :], Y[:, np.newaxis])
+    inside = np.all([value > 0 for value in conditions(table, speed)], axis=0)
+    if inside.any():
+        ax.contourf(X, Y, inside, levels=[0.5, 1.5], colors=[_STABLE])
+    for name, (colour, style, _) in _SURFACES.items():
+        for x, y in zero_curves(section, name, X, Y):
+            draw_ticked(ax, section, [name], x, y, color=colour, ls=style)
+    ax.set(xlim=SIGMA, ylim=(0, _TOP))
+    label_axes(ax, "sigma", "V", section.family.bicycle.c)
+    ax.set_title(f"{section.family.model}: conditions at λ = {section.value:g} rad", fontsize=10)

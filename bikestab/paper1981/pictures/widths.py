@@ -1,0 +1,43 @@
+"""Conclusion 2: the width of the widest interval along both axes of the box."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from bikestab.bicycle import Bicycle
+from bikestab.model import Floats
+from bikestab.paper1981.box import LAM, SIGMA, V
+from bikestab.paper1981.widening import LAMS, SIGMAS, widest
+from bikestab.plot.axes import label_axes
+
+_TICKS = [0.1, 0.2, 0.5, 1, 2, 5, 10]  # m/s
+
+
+def draw_widths(bicycle: Bicycle, samples: int) -> Figure:
+    """The width of the widest interval along λ at several σ, and along σ at several λ."""
+    figure = Figure(figsize=(11, 4.8), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    x, y = np.linspace(*LAM, 2 * samples), np.linspace(*SIGMA, 2 * samples)
+    _lines(left, x, {f"σ = {sigma:.2f}": widest(bicycle, x, sigma) for sigma in SIGMAS})
+    _lines(right, y, {f"λ = {lam:.2f}": widest(bicycle, lam, y) for lam in LAMS})
+    for ax, name, where in ((left, "lam", "upper right"), (right, "sigma", "upper left")):
+        label_axes(ax, name, "V", bicycle.c)
+        ax.set_ylabel(f"width of the widest interval up to {V[1]:g} m/s [m/s]")
+        ax.legend(fontsize=8.5, ncols=2, loc=where)
+    figure.suptitle(f"{bicycle.name}: how the width depends on tilt and trail", fontsize=11)
+    return figure
+
+
+def _lines(ax: Axes, x: Floats, widths: dict[str, Any]) -> None:
+    colours = colormaps["viridis"](np.linspace(0, 0.85, len(widths)))
+    for (label, width), colour in zip(widths.items(), colours, strict=True):
+        ax.plot(x, np.where(width > 0, width, np.nan), color=colour, lw=1.7, label=label)
+    ax.set(xlim=(x[0], x[-1]), ylim=(0.1, 1.15 * V[1]), yscale="log")
+    ax.set_yticks(_TICKS, labels=[f"{tick:g}" for tick in _TICKS])
+    ax.minorticks_off()
+    ax.grid(color="0.9", lw=0.6)

@@ -1,0 +1,163 @@
+"""The whole study: every number of the report, and the verdicts that the rules draw from them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field, fields, is_dataclass
+from typing import Any, Generic, TypeVar
+
+from bikestab import __version__
+from bikestab.bicycle import Bicycle
+from bikestab.paper1981 import claims
+from bikestab.paper1981.box import FULL, LAM, SIGMA, Range, Sampling, V
+from bikestab.paper1981.claims import Verdict
+from bikestab.paper1981.damping import Damping, damping
+from bikestab.paper1981.finite_interval import DesignIntervals, FiniteInterval, finite_interval
+from bikestab.paper1981.maps import map_designs
+from bikestab.paper1981.margin import Margin, margin
+from bikestab.paper1981.one_design import intervals
+from bikestab.paper1981.readings import Readings, judge_readings
+from bikestab.paper1981.refinement import Refinement, refinement
+from bikestab.paper1981.widening import Widening, widening
+
+FAMILY_LAM = (0.05, 0.10, 0.15, 0.20, 0.25, 0.30)  # rad: the planes in which the boundaries are drawn
+FAMILY_SIGMA = (0.06, 0.08, 0.10, 0.12, 0.14, 0.15)
+ARROW = ((0.22, 0.125, 12.5), (0.22, 0.125, 4.9))  # λ, σ, V: from outside into the stable region
+TABLE = ((0.20, 0.08), (0.30, 0.10), (0.05, 0.15), (0.015, 0.1475), (0.10, 0.08))  # (λ, σ)
+FIGURES = {
+    "figure3.png": "boundaries in (σ, V) at several λ and in (λ, V) at several σ",
+    "figure3_space.png": "the region in three dimensions",
+    "refinement.png": "the refined and the unrefined model side by side",
+    "conclusion1.png": "which designs have an upper limit of the stable speed",
+    "conclusion2.png": "the width of the interval along λ and along σ",
+    "conclusion3.png": "the best designs",
+    "conclusion4.png": "the boundaries against damping",
+}
+Progress = Callable[[str], None]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Box:
+    """The paper's ranges of λ [rad], σ and V [m/s]."""
+
+    lam: Range = LAM
+    sigma: Range = SIGMA
+    V: Range = V
+
+
+@dataclass(frozen=True)
+class Figure3:
+    """The planes and the arrow of figure 3, and the stable speeds of some designs."""
+
+    lam: list[float]
+    sigma: list[float]
+    arrow: list[list[float]]
+    table: list[DesignIntervals]
+
+
+@dataclass(frozen=True)
+class Judged(Generic[T]):
+    """A claim, the rule it is judged by, the verdict, and the numbers that it is drawn from."""
+
+    claim: str
+    rule: str
+    verdict: Verdict
+    numbers: T
+
+
+@dataclass(frozen=True)
+class Conclusions:
+    """The paper's four conclusions, judged."""
+
+    finite_interval: Judged[FiniteInterval] = field(metadata={"key": "1"})
+    widening: Judged[Widening] = field(metadata={"key": "2"})
+    margin: Judged[Margin] = field(metadata={"key": "3"})
+    damping: Judged[Damping] = field(metadata={"key": "4"})
+
+    def by_number(self) -> dict[int, Judged[Any]]:
+        """The conclusions by their number in the paper."""
+        return dict(enumerate((self.finite_interval, self.widening, self.margin, self.damping), 1))
+
+
+@dataclass(frozen=True)
+class Study:
+    """All numbers of the report."""
+
+    bikestab: str
+    source: str
+    bicycle: dict[str, float]
+    warnings: list[str]
+    box: Box
+    sampling: Sampling
+    thresholds: dict[str, float]
+    figures: dict[str, str]
+    figure3: Figure3
+    refinement: Refinement
+    conclusions: Conclusions
+    sensitivity: Readings
+
+
+def study(bicycle: Bicycle, sampling: Sampling = FULL, progress: Progress = lambda words: None) -> Study:
+    """Compute and judge everything; ``progress`` is told what comes next."""
+    progress("map of the stable speeds")
+    designs = map_designs(bicycle, sampling.grid)
+    progress("the refinement")
+    refined = refinement(bicycle, designs, sampling)
+    progress("conclusions 1 and 2")
+    finite = finite_interval(bicycle, designs, sampling)
+    wide = widening(bicycle, designs, 5 * sampling.picture)
+    progress("conclusion 3")
+    best = margin(bicycle, sampling.search)
+    progress("conclusion 4")
+    damped = damping(bicycle, sampling.grid_damping)
+    progress("other readings of the printed values")
+    doubtful = judge_readings(bicycle, sampling)
+    return Study(
+        bikestab=__version__,
+        source=bicycle.source,
+        bicycle={name: value for name, value in bicycle.numbers().items() if value is not None},
+        warnings=list(bicycle.warnings),
+        box=Box(),
+        sampling=sampling,
+        thresholds=claims.THRESHOLDS,
+        figures=FIGURES,
+        figure3=_figure3(bicycle),
+        refinement=refined,
+        conclusions=_judged(finite, wide, best, damped),
+        sensitivity=doubtful,
+    )
+
+
+def _figure3(bicycle: Bicycle) -> Figure3:
+    return Figure3(
+        list(FAMILY_LAM),
+        list(FAMILY_SIGMA),
+        [list(end) for end in ARROW],
+        [DesignIntervals(lam, sigma, intervals(bicycle, lam, sigma)) for lam, sigma in TABLE],
+    )
+
+
+def _judged(finite: FiniteInterval, wide: Widening, best: Margin, damped: Damping) -> Conclusions:
+    verdicts = (
+        claims.judge_finite(**asdict(finite.judged_by)),
+        claims.judge_widening(wide.larger_sigma_widens, wide.sigma_from, wide.reaches_zero),
+        claims.judge_margin(**asdict(best.judged_by)),
+        claims.judge_damping(**asdict(damped.judged_by)),
+    )
+    parts: tuple[Any, ...] = (finite, wide, best, damped)
+    return Conclusions(
+        *(
+            Judged(claims.CLAIMS[number], claims.RULES[number], verdict, numbers)
+            for number, (verdict, numbers) in enumerate(zip(verdicts, parts, strict=True), 1)
+        )
+    )
+
+
+def plain(value: Any) -> Any:
+    """Records as mappings and sequences as lists, as JSON has them."""
+    if is_dataclass(value):
+        return {f.metadata.get("key", f.name): plain(getattr(value, f.name)) for f in fields(value)}
+    if isinstance(value, dict):
+        return {key: plain(part) for key, part in value.items()}
+    return [plain(part) for part in value] if isinstance(value, list | tuple) else value

@@ -1,0 +1,57 @@
+"""The pictures: ticks on the stable side, the arrow into the region, and that each is drawn."""
+
+import numpy as np
+import pytest
+from matplotlib.text import Text
+
+from bikestab.bicycle import Bicycle
+from bikestab.family import Family
+from bikestab.model import characteristic_table
+from bikestab.paper1981.box import LAM, SIGMA, V
+from bikestab.paper1981.pictures.ticks import oriented
+from bikestab.paper1981.reproduce import draw_all
+from bikestab.paper1981.study import ARROW, FIGURES
+from bikestab.region.section import Section, edge_curves
+from bikestab.routh import CONDITIONS, stable
+from tests.small import TINY, record
+
+
+@pytest.mark.parametrize("fixed", ["lam", "sigma"])
+@pytest.mark.parametrize("name", ["hurwitz3", "p0"])
+def test_ticks_are_on_the_stable_side(fixed, name):
+    """Beside the points of each oriented curve: stable at its left, not at its right."""
+    value = {"lam": 0.2, "sigma": 0.12}[fixed]
+    section = Section(Family(Bicycle.preset("dikarev1981")), fixed, value)
+    ends = {"lam": LAM, "sigma": SIGMA, "V": V}
+    width, height = (ends[axis][1] for axis in section.axes)
+    for x, y in edge_curves(section, name, np.linspace(0, width, 161), np.linspace(0, height, 161)):
+        for points in ((x, y), (x[::-1], y[::-1])):
+            a, b = oriented(section, CONDITIONS, *points)
+            along = np.diff(a) / width, np.diff(b) / height
+            length = np.maximum(np.hypot(*along), 1e-12)
+            middle = 0.5 * (a[1:] + a[:-1]), 0.5 * (b[1:] + b[:-1])
+            normal = -1e-3 * width * along[1] / length, 1e-3 * height * along[0] / length
+            left, right = (
+                stable(*section.table_and_speed(middle[0] + s * normal[0], middle[1] + s * normal[1]))
+                for s in (1, -1)
+            )
+            assert left.mean() > 0.9
+            assert right.mean() < 0.1
+
+
+def test_the_arrow_points_into_the_region():
+    start, tip = ARROW
+    for (lam, sigma, speed), expected in ((start, False), (tip, True)):
+        table = characteristic_table(Bicycle.preset("dikarev1981"), lam, sigma)
+        assert bool(stable(table, speed)) is expected
+    assert start[:2] == tip[:2]  # the arrow's head is drawn for a vertical one
+
+
+def test_figures_are_drawn():
+    found = dict(draw_all(record(), TINY))
+    assert set(found) == set(FIGURES)
+    left, right = found["figure3.png"].axes[:2]
+    assert len(left.lines) > 12
+    assert len(right.lines) > 12
+    words = [t.get_text() for t in found["refinement.png"].findobj(Text)]
+    assert "no stable motion in this box" in words
