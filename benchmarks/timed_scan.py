@@ -77,7 +77,7 @@ def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
     from bikestab.scanning import tile as tiles
 
     clock.around(scan, "run_scan", "rest")
-    clock.around(scan, "_assemble", "writing")
+    clock.around(scan, "assemble", "writing")
     clock.around(scan.Spool, "add", "keeping tiles")
     clock.around(command, "_draw", "pictures")
     if jobs == 1:

@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-import hashlib
+from collections.abc import Mapping
 from functools import cached_property
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
+import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
 
 from bikestab.bicycle import PAPER, Bicycle, preset_names
+from bikestab.config.meaning import digest, drawn_around, yaml_text
+from bikestab.config.members import (
+    Member,
+    SweptAxis,
+    check_names,
+    check_samples,
+    doubts_of,
+    members,
+    swept_axes,
+)
 from bikestab.config.values import (
     ABSENT,
     Damping,
@@ -24,19 +35,9 @@ from bikestab.config.values import (
     Within,
     mistake,
 )
-from bikestab.config.variation import (
-    SWEPT,
-    Ensemble,
-    Member,
-    SweptAxis,
-    check_names,
-    check_samples,
-    doubts_of,
-    members,
-    swept_axes,
-)
+from bikestab.config.variation import SWEPT, Ensemble
 from bikestab.errors import InputError, nearest
-from bikestab.fields import Axis, askable
+from bikestab.fields import AXES, Axis, askable
 from bikestab.model import Floats, Model
 from bikestab.notation import MEIJAARD
 from bikestab.units import shown
@@ -206,8 +207,10 @@ class ScanConfig(Strict):
 
     @property
     def text(self) -> str:
-        """The YAML text, with overrides in it."""
-        return self._text
+        """The YAML text that it was read from, with overrides in it, or else one that gives it."""
+        return self._text or yaml_text(
+            self.bicycle, self.model_dump(exclude_defaults=True, exclude={"bicycle"})
+        )
 
     def with_text(self, text: str) -> ScanConfig:
         """A copy that was read from this YAML text."""
@@ -215,7 +218,21 @@ class ScanConfig(Strict):
         config._text = text
         return config
 
-    @property
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> ScanConfig:
+        """A copy; with other values it is checked anew, and its text is its own."""
+        if not update:
+            return super().model_copy(deep=deep)
+        return ScanConfig(**{name: getattr(self, name) for name in self.model_fields_set} | {**update})
+
+    @cached_property
     def sha256(self) -> str:
-        """The SHA-256 of the YAML text."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
+        """The SHA-256 of what is computed: title, texts, slices, output and what is expected do not count."""
+        ensemble = self.ensemble
+        return digest({
+            "model": self.model,
+            "machines": np.array([list(member.bicycle.numbers().values()) for member in self.members], float),
+            "grid": [self.grid.values(name) for name in AXES],
+            "fields": sorted(set(self.fields)),
+            "sweep": [[axis.name, axis.values] for axis in self.axes],
+            "ensemble": ensemble and {**ensemble.meaning, "around": drawn_around(self.machine)},
+        })  # fmt: skip

@@ -54,7 +54,7 @@ def _reads(units: dict[str, float], check: str = "") -> BeforeValidator:
             raise mistake(f"{number:g} is not positive", "allowed: above 0")
         if check == "share" and not 0 < number < 1:
             raise mistake(f"{number:g} is no share of the samples", "allowed: between 0 and 1, both excluded")
-        return number
+        return number + 0.0  # of −0 that makes 0
 
     return BeforeValidator(validate)
 

@@ -1,29 +1,24 @@
-"""Sweeps and ensembles: what a config says of parameters that vary, and the machines that follow."""
+"""What a config says of parameters that are drawn at random."""
 
 from __future__ import annotations
 
-import math
-from collections import Counter
-from collections.abc import Iterable, Mapping
 from functools import cached_property
-from itertools import product
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
+import numpy as np
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, model_validator
 
 from bikestab.bicycle import PAPER, Bicycle
-from bikestab.config.values import ABSENT, Number, NumberAxis, Share, Strict, increasing, mistake
-from bikestab.errors import InputError, nearest
+from bikestab.config.values import ABSENT, Number, Share, Strict, increasing, mistake
+from bikestab.errors import nearest
 from bikestab.machines import Machines, standard_normal, uniforms
 from bikestab.model import Floats
 from bikestab.notation import MEIJAARD
 from bikestab.units import shown
 
-MOST_MEMBERS = 10_000  # of a sweep
 MOST_SAMPLES = 1_000_000  # of an ensemble
-MOST_MACHINES = 100_000_000  # of all ensembles of a sweep
-_BOTH = {**PAPER, **MEIJAARD}
-SWEPT = [name for name in _BOTH if name not in ("lam", "sigma", "trail")]  # known in either notation
+BOTH = {**PAPER, **MEIJAARD}
+SWEPT = [name for name in BOTH if name not in ("lam", "sigma", "trail")]  # known in either notation
 
 
 def _pair(words: str) -> BeforeValidator:
@@ -115,6 +110,19 @@ class Ensemble(Strict):
         """The parameters that are drawn."""
         return self.__pydantic_extra__
 
+    @property
+    def meaning(self) -> dict[str, Any]:
+        """What decides which machines are drawn and what is computed of them."""
+        return {
+            "samples": self.samples,
+            "seed": self.seed,
+            "quantiles": np.array(self.quantiles),
+            "parameters": {
+                name: [[kind, np.array(pair)] for kind, pair in one.model_dump(exclude_unset=True).items()]
+                for name, one in self.parameters.items()
+            },
+        }
+
     @cached_property
     def drawn(self) -> dict[str, Floats]:
         """The samples of each parameter; shape (sample,)."""
@@ -129,125 +137,3 @@ class Ensemble(Strict):
         Raises InputError where some are no machine.
         """
         return Machines.drawn(bicycle, self.drawn)
-
-
-class Member(NamedTuple):
-    """One machine of a sweep, and the swept parameters' values."""
-
-    values: dict[str, float]
-    bicycle: Bicycle
-
-
-class SweptAxis(NamedTuple):
-    """One axis of a sweep: a parameter, its values, unit and meaning."""
-
-    name: str
-    values: Floats
-    unit: str
-    meaning: str
-
-
-def swept_axes(bicycle: Bicycle, sweep: Mapping[str, NumberAxis]) -> list[SweptAxis]:
-    """The axes of a sweep over parameters of the bicycle."""
-    axes = []
-    for name, axis in sweep.items():
-        meaning, _, unit = bicycle.notation[name].rpartition(" [")
-        axes.append(SweptAxis(name, axis.points, unit.rstrip("]"), meaning))
-    return axes
-
-
-def check_names(
-    bicycle: Bicycle, sweep: Iterable[str], ensemble: Ensemble | None, *, own_delta: bool
-) -> None:
-    """Raise InputError unless every varied name is a parameter of the bicycle's notation, and varied once."""
-    names = [("sweep", name) for name in sweep]
-    names += [("ensemble", name) for name in (ensemble.parameters if ensemble else ())]
-    on_grid = {"lam": "tilt", "sigma": "trail", "trail": "trail"}
-    on_grid |= {"c": "trail"} if bicycle.notation is MEIJAARD else {}
-    known = [name for name in bicycle.notation if name not in on_grid]
-    seen: dict[str, str] = {}
-    for key in names:
-        name = key[1]
-        if name in on_grid:
-            axis = "lam" if name == "lam" else "sigma"
-            raise InputError(
-                f"the grid has the {on_grid[name]}", key=key, hint=f"give its values in grid.{axis}"
-            )
-        if name not in known:
-            other = " (a key of the other notation)" if name in _BOTH else ""
-            raise InputError(f"unknown parameter{other}", key=key, hint=nearest(name, known))
-        if name == "delta" and own_delta:
-            raise InputError("delta is given for the whole config as well", key=key, hint="give one of them")
-        for one in ("R1", "R2") if name == "R" else (name,):
-            if one in seen:
-                raise InputError(f"{seen[one]} varies it already", key=key, hint="vary it once")
-            seen[one] = ".".join(key)
-
-
-def members(machine: Bicycle, sweep: Mapping[str, NumberAxis]) -> list[Member]:
-    """The machines at every combination of a sweep's values, the last axis fastest.
-
-    Raises InputError for too many of them, and for values that no machine has.
-    """
-    number = math.prod(axis.size for axis in sweep.values())
-    if number > MOST_MEMBERS:
-        sizes = " × ".join(str(axis.size) for axis in sweep.values())
-        raise InputError(
-            f"{sizes} machines are too many", key=("sweep",), hint=f"allowed: up to {MOST_MEMBERS}"
-        )
-    found = []
-    for point in product(*(axis.points.tolist() for axis in sweep.values())):
-        values = dict(zip(sweep, point, strict=True))
-        try:
-            found.append(Member(values, machine.replaced(values) if values else machine))
-        except InputError as error:
-            raise _of_sweep(error, values) from None
-    return found
-
-
-def _of_sweep(error: InputError, values: Mapping[str, float]) -> InputError:
-    name = str(error.key[0]) if error.key else ""
-    name = "R" if name in ("R1", "R2") and "R" in values else name
-    if name in values:
-        return InputError(error.problem, key=("sweep", name), hint=error.hint)
-    point = ", ".join(f"{name} = {value:g}" for name, value in values.items())
-    return InputError(f"with {point}: {name}: {error.problem}", key=("sweep",), hint=error.hint)
-
-
-def doubts_of(machines: list[Member], ensemble: Ensemble | None) -> list[str]:
-    """What no rigid bodies on the ground can have, and how many of the machines have it."""
-    first: dict[str, str] = {}
-    counts: Counter[str] = Counter()
-    drawn: Counter[str] = Counter()
-    for member in machines:
-        for text in member.bicycle.warnings:
-            kind = text.partition(":")[0]
-            first.setdefault(kind, text)
-            counts[kind] += 1
-        if ensemble:
-            drawn.update(ensemble.machines(member.bicycle).doubtful())
-    of = f"{{}} of {len(machines)} machines of the sweep: {{}}" if len(machines) > 1 else "{1}"
-    found = [of.format(counts[kind], text) for kind, text in first.items()]
-    if ensemble:
-        number = len(machines) * ensemble.samples
-        found += [f"{count} of {number} drawn machines: {text}" for text, count in drawn.items()]
-    return found
-
-
-def check_samples(machines: list[Member], ensemble: Ensemble | None) -> None:
-    """Raise InputError if some sample around some member is no machine, or all are too many."""
-    if ensemble is None:
-        return
-    if len(machines) * ensemble.samples > MOST_MACHINES:
-        raise InputError(
-            f"{ensemble.samples} samples of each of {len(machines)} machines are too many",
-            key=("ensemble", "samples"),
-            hint=f"allowed: up to {MOST_MACHINES // len(machines)} with this sweep",
-        )
-    for member in machines:
-        try:
-            ensemble.machines(member.bicycle)
-        except InputError as error:
-            at = ", ".join(f"{name} = {value:g}" for name, value in member.values.items())
-            problem = f"at {at}, {error.problem}" if at else error.problem
-            raise InputError(problem, key=("ensemble", *error.key), hint=error.hint) from None

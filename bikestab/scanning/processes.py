@@ -27,6 +27,13 @@ from bikestab.scanning.tile import Finished, Tile, compute
 Numbered = tuple[int, Tile]
 
 
+def cores() -> int:
+    """How many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 def in_turn(tiles: Iterable[Numbered]) -> Generator[tuple[int, Finished]]:
     """Compute each tile here."""
     for number, tile in tiles:

@@ -10,24 +10,23 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab import __version__
 from bikestab.fields import AXES, COORDINATES, FIELDS, Field
 from bikestab.files import beside
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.chunks import packed, places
 from bikestab.scanning.crosscheck import Agreement
+from bikestab.scanning.labels import add_vtk_view, describe, file_attributes, flags, masks, words
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.sheets import Sheets
 from bikestab.scanning.sink import Sink
 from bikestab.speeds import KINDS, Intervals, widened
-from bikestab.volume import parameters_text, uniform
+from bikestab.volume import uniform
 
 
 @contextmanager
@@ -64,7 +63,7 @@ class VolumeWriter:
         self.file, self.plan, self._sink = file, plan, sink
         self._lead = [axis.name for axis in plan.config.axes]
         self._data: dict[str, h5py.Dataset] = {}  # h5py takes long to find them by name
-        self._attributes()
+        file.attrs.update(file_attributes(plan.config))
         for swept in plan.config.axes:
             self._scale(swept.name, swept.values, swept.unit, swept.meaning)
         if self._lead:
@@ -74,28 +73,6 @@ class VolumeWriter:
         for name in plan.fields:
             self._field(FIELDS[name])
 
-    def _attributes(self) -> None:
-        config = self.plan.config
-        bicycle = config.machine
-        attributes: dict[str, Any] = {
-            "Conventions": np.bytes_("CF-1.11"),
-            "title": config.title or f"{bicycle.name}: region of stable motion",
-            "source": f"bikestab {__version__}",
-            "references": bicycle.source,
-            "bikestab_version": __version__,
-            "bicycle": bicycle.name,
-            "bicycle_parameters": parameters_text(bicycle),
-            "warnings": "\n".join(config.warnings),
-            "model": config.model,
-            "config": config.text,
-            "config_sha256": config.sha256,
-            "complete": np.int32(0),
-        }
-        if config.ensemble:
-            attributes["ensemble_samples"] = config.ensemble.samples
-        for key, value in attributes.items():
-            self.file.attrs[key] = value
-
     def _machines(self) -> None:
         """The parameters of every machine of the sweep, which the axes alone need not tell."""
         rows = [list(member.bicycle.numbers().values()) for member in self.plan.config.members]
@@ -104,16 +81,15 @@ class VolumeWriter:
         data = self.file.create_dataset("machine", data=values, track_order=True)
         for i, axis in enumerate([*self._lead, "parameter"]):
             data.dims[i].attach_scale(self.file[axis])
-        _describe(data, "", "parameters of each machine in SI units, in the order of the attribute 'names'")
-        data.attrs["names"] = _ascii(*self.plan.config.machine.numbers())
+        describe(data, "", "parameters of each machine in SI units, in the order of the attribute 'names'")
+        data.attrs["names"] = words(tuple(self.plan.config.machine.numbers()))
 
     def _field(self, field: Field) -> None:
         data = self._create(field.name, AXES, field.dtype, self.plan.chunk, field.unit, field.meaning)
         if field.flags:
-            _flags(data, field.flags)
+            flags(data, field.flags)
         if field.masks:
-            data.attrs["flag_masks"] = np.array([1 << bit for bit in range(len(field.masks))], field.dtype)
-            data.attrs["flag_meanings"] = _ascii(*field.masks)
+            masks(data, field.masks)
 
     def write_fields(self, place: tuple[int, ...], shape: tuple[int, ...], chunks: list[memoryview]) -> None:
         """Put a tile's chunks into the fields; ``place`` is its first index, ``shape`` its own."""
@@ -137,14 +113,14 @@ class VolumeWriter:
             self._column(name, "interval", np.float64, "m s-1", text)
         for name in ("lower", "upper"):
             text = f"what happens at the {name} end of each stable interval"
-            _flags(self._column(name, "interval", np.uint8, "1", text), KINDS)
+            flags(self._column(name, "interval", np.uint8, "1", text), KINDS)
         self._counter("root", max(1, sheets), "number of the sheet of roots")
         self.file.create_group("boundary", track_order=True)
         for name in CONDITIONS:
             text = f"every speed at which {name} changes sign, sheet by sheet"
             self._column(f"boundary/{name}", "root", np.float64, "m s-1", text)
             text = f"whether {name} = 0 is an edge of stability there"
-            _flags(self._column(f"boundary/{name}_edge", "root", np.uint8, "1", text), ("no_edge", "edge"))
+            flags(self._column(f"boundary/{name}_edge", "root", np.uint8, "1", text), ("no_edge", "edge"))
         if self.plan.config.ensemble:
             self._create_spread(self.plan.config.ensemble.quantiles)
 
@@ -184,7 +160,7 @@ class VolumeWriter:
         group.attrs["largest_difference"] = agreement.largest
         group.attrs["largest_difference_units"] = np.bytes_("m s-1")
         if not self._lead and all(uniform(self.file[name][()]) for name in AXES):
-            _vtk(self.file, self.plan.fields)
+            add_vtk_view(self.file, self.plan.fields)
         self.file.attrs["stable_points"] = stable_points
         self.file.attrs["complete"] = np.int32(1)
 
@@ -199,7 +175,7 @@ class VolumeWriter:
             fillvalue=np.nan if float_ else None,
         )  # fmt: skip
         self._data[name] = data
-        _describe(data, unit, text)
+        describe(data, unit, text)
         for i, axis in enumerate(axes):
             data.dims[i].attach_scale(self.file[axis])
         return data
@@ -218,41 +194,7 @@ class VolumeWriter:
     def _scale(self, name: str, values: NDArray, unit: str, text: str) -> None:
         data = self.file.create_dataset(name, data=values, track_order=True)
         data.make_scale(name)
-        _describe(data, unit, text)
+        describe(data, unit, text)
 
     def _counter(self, name: str, length: int, text: str) -> None:
         self._scale(name, np.arange(1, length + 1, dtype=np.int32), "1", text)
-
-
-def _vtk(file: h5py.File, names: tuple[str, ...]) -> None:
-    """ParaView's view of the same arrays: x = V, y = σ, z = λ."""
-    group = file.create_group("VTKHDF", track_order=True)
-    axes = [file[name][()] for name in reversed(AXES)]
-    group.attrs["Version"] = np.array([1, 0])
-    group.attrs["Type"] = np.bytes_("ImageData")
-    group.attrs["WholeExtent"] = np.array([[0, len(axis) - 1] for axis in axes]).ravel()
-    group.attrs["Origin"] = np.array([axis[0] for axis in axes])
-    group.attrs["Spacing"] = np.array([(axis[-1] - axis[0]) / (len(axis) - 1) for axis in axes])
-    group.attrs["Direction"] = np.eye(3).ravel()
-    points = group.create_group("PointData", track_order=True)
-    for name in names:
-        points[name] = file[name]
-
-
-def _describe(data: h5py.Dataset, unit: str, text: str) -> None:
-    if unit:
-        data.attrs["units"] = np.bytes_(_ascii_unit(unit))
-    data.attrs["long_name"] = np.bytes_(text.encode("ascii", "replace"))
-
-
-def _ascii_unit(unit: str) -> str:
-    return unit.replace("²", "2").replace("kg m2/s", "kg m2 s-1").replace("m/s2", "m s-2")
-
-
-def _flags(data: h5py.Dataset, meanings: tuple[str, ...]) -> None:
-    data.attrs["flag_values"] = np.arange(len(meanings), dtype=data.dtype)
-    data.attrs["flag_meanings"] = _ascii(*meanings)
-
-
-def _ascii(*words: str) -> np.bytes_:
-    return np.bytes_(" ".join(words))

@@ -47,9 +47,9 @@ def command(
     region.png, and PNG slices.
 
     'bikestab init' writes a commented config to start from. All configs are read before the first is
-    computed. A volume that is there already, made from the same config, is kept and only its
-    pictures are drawn again. A scan that was stopped, however, goes on where it was when the same command
-    is run again.
+    computed. A volume that is there already, made from a config that means the same, is kept
+    and only its pictures are drawn again: another title, comment or slice computes nothing. A scan
+    that was stopped, however, goes on where it was when the same command is run again.
 
     \b
     Examples:
@@ -61,7 +61,7 @@ def command(
     from bikestab.config.file import load_config
     from bikestab.errors import InputError
     from bikestab.plot.pictures import draw_pictures
-    from bikestab.scanning.run import check_size, volume_path
+    from bikestab.scanning.output import check_size, volume_path
 
     if jobs and scheduler:
         raise click.UsageError("--jobs is for this machine, --scheduler for a cluster; give one of them")
@@ -98,7 +98,8 @@ def _run(
     name: str, config: ScanConfig, force: bool, jobs: int | None, scheduler: str, quiet: bool
 ) -> ScanResult:
     from bikestab.errors import InputError
-    from bikestab.scanning.run import run_scan, tiles_path
+    from bikestab.scanning.output import tiles_path
+    from bikestab.scanning.run import run_scan
 
     try:
         with progress(name, quiet) as show:

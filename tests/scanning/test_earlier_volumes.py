@@ -1,6 +1,7 @@
 """The same configs give the same volumes as an earlier build did; tests/references/volumes has both."""
 
 import json
+from contextlib import chdir
 from pathlib import Path
 
 import h5py
@@ -24,9 +25,8 @@ HANDLES = {"REFERENCE_LIST", "DIMENSION_LIST"}  # of HDF5 itself; dims are compa
 @pytest.fixture(scope="module", params=NAMES)
 def pair(request, tmp_path_factory):
     """The earlier volume and the one of this build, open."""
-    folder = tmp_path_factory.mktemp(request.param)
-    config = load_config(FOLDER / f"{request.param}.yaml")
-    path = run_scan(config.model_copy(update={"output": str(folder)})).path
+    with chdir(tmp_path_factory.mktemp(request.param)):
+        path = run_scan(load_config(FOLDER / f"{request.param}.yaml")).path.absolute()
     with h5py.File(FOLDER / f"{request.param}.h5") as old, h5py.File(path) as new:
         yield old, new
 

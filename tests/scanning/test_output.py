@@ -9,9 +9,9 @@ import pytest
 
 import bikestab
 from bikestab.errors import InputError
-from bikestab.scanning import processes as workers
-from bikestab.scanning import run as scan
-from bikestab.scanning.run import run_scan, tiles_path
+from bikestab.scanning import processes, run
+from bikestab.scanning.output import tiles_path
+from bikestab.scanning.run import run_scan
 from bikestab.scanning.spool import Spool
 from bikestab.volume import Volume
 from tests.scanning.test_resume import DONE, KEPT, config, interrupted, whole
@@ -38,13 +38,15 @@ def test_the_same_config_is_kept():
 
 def test_nothing_is_computed_for_a_volume_that_is_kept(monkeypatch):
     run_scan(small())
-    monkeypatch.setattr(workers, "compute", None)
+    monkeypatch.setattr(processes, "compute", None)
     assert not run_scan(small()).computed
     with pytest.raises(TypeError):
         run_scan(small(), force=True)
 
 
-@pytest.mark.parametrize("more", ["title: another\n", "delta: 1\n", "model: unrefined\n", "# a remark\n"])
+@pytest.mark.parametrize(
+    "more", ["delta: 1\n", "model: unrefined\n", "fields: [stable]\n", "sweep: {m1: [80]}\n"]
+)
 def test_the_output_of_another_config_is_refused(more):
     path = run_scan(small()).path
     before = path.read_bytes()
@@ -60,9 +62,15 @@ def test_the_output_of_another_config_is_refused(more):
 @pytest.mark.parametrize(
     ("more", "words"),
     [
-        ("delta: 1\n", "(delta: none there, 1 here)"),
-        ("# a remark\n", "(only its comments or layout differ)"),
-        ("slices: [{lam: 0.2}]\n", "(only slices[0].lam: 'bikestab slice' draws any plane)"),
+        ("delta: 1\n", "(delta: 0 there, 1 here)"),
+        ("model: unrefined\n", "(model: refined there, unrefined here)"),
+        ("fields: [stable]\n", "(fields: stable violated growth_rate there, stable here)"),
+        ("sweep: {m1: [80]}\n", "(sweep: none there, m1 here)"),
+        (
+            "ensemble: {m1: {normal: [80, 8]}, samples: 9}\n",
+            "growth_rate probability here; ensemble: no samples",
+        ),
+        ("delta: 1\nmodel: unrefined\nsweep: {m1: [79], m2: [2]}\n", "; sweep: none there, m1 × m2 here)"),
     ],
 )
 def test_what_differs_is_told(more, words):
@@ -70,6 +78,37 @@ def test_what_differs_is_told(more, words):
     with pytest.raises(InputError) as caught:
         run_scan(small(more=more))
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("more", "other", "words"),
+    [
+        (
+            "sweep: {m1: [70, 80]}\n",
+            "sweep: {m1: [70, 81]}\n",
+            "(sweep.m1: 70 ... 80 in 2 values there, 70 ... 81 in 2",
+        ),
+        ("sweep: {m1: [70, 80]}\n", "sweep: {m2: [2, 3]}\n", "(sweep: m1 there, m2 here)"),
+        (
+            "ensemble: {m1: {normal: [80, 8]}, samples: 9}\n",
+            "ensemble: {m1: {normal: [80, 9]}, samples: 9}\n",
+            "(ensemble: 9 samples there, other ones here)",
+        ),
+    ],
+)
+def test_what_differs_of_a_sweep_and_an_ensemble_is_told(more, other, words):
+    run_scan(small(more=more))
+    assert not run_scan(small(more=more)).computed
+    with pytest.raises(InputError) as caught:
+        run_scan(small(more=other))
+    assert words in str(caught.value)
+
+
+def test_another_grid_is_told():
+    run_scan(small())
+    with pytest.raises(InputError) as caught:
+        run_scan(small((4, 5, 7)))
+    assert "(grid.V: 0 ... 15 in 6 values there, 0 ... 15 in 7 values here)" in str(caught.value)
 
 
 def test_the_tiles_of_another_scan_are_no_hindrance_to_a_complete_volume():
@@ -142,8 +181,8 @@ def test_tiles_of_another_config_are_refused_or_dropped(computed):
 def test_tiles_of_other_versions_are_refused(name, monkeypatch):
     """Another version may give other bytes."""
     interrupted(3)
-    identity = scan._identity(config())
-    monkeypatch.setattr(scan, "_identity", lambda _: {**identity, f"version of {name}": "9.9"})
+    identity = run._identity(config())
+    monkeypatch.setattr(run, "_identity", lambda _: {**identity, f"version of {name}": "9.9"})
     with pytest.raises(InputError, match=f"another version of {name}"):
         run_scan(config())
 

@@ -15,11 +15,11 @@ from bikestab.fields import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scanning import plan
-from bikestab.scanning import run as scan
 from bikestab.scanning import tile as tiles
 from bikestab.scanning.crosscheck import AGREEMENT
+from bikestab.scanning.output import MOST_VALUES, check_size
 from bikestab.scanning.plan import Plan
-from bikestab.scanning.run import check_size, run_scan
+from bikestab.scanning.run import run_scan
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import critical, critical_speeds, intervals_of
 from tests.scans import config_of, files, load
@@ -218,9 +218,9 @@ def test_a_grid_too_large_is_refused_at_once(shape, axis, problem):
 
 def test_the_hint_of_too_many_values_says_how_many_are_allowed():
     with pytest.raises(InputError) as caught:
-        check_size(config_of((4, 5, scan.MOST_VALUES + 1)))
+        check_size(config_of((4, 5, MOST_VALUES + 1)))
     assert caught.value.hint == "allowed: up to 4000000"
-    check_size(config_of((2, 2, scan.MOST_VALUES)))
+    check_size(config_of((2, 2, MOST_VALUES)))
 
 
 def test_the_disk_that_counts_is_the_outputs(monkeypatch):

@@ -1,0 +1,70 @@
+"""Finished tiles → the volume: what is counted over all of them, sheets over the whole plane, the file."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+from bikestab.routh import CONDITIONS
+from bikestab.scanning.crosscheck import Agreement
+from bikestab.scanning.plan import Plan
+from bikestab.scanning.sheets import Atlas
+from bikestab.scanning.spool import Spool
+from bikestab.scanning.tile import Columns, keep_heap, parted
+from bikestab.scanning.writer import VolumeWriter, new_volume
+
+
+def assemble(plan: Plan, spool: Spool, path: Path) -> tuple[int, Agreement]:
+    """Write the volume from its tiles, all finished; the number of stable points, and what the check gave."""
+    keep_heap()
+    notes = spool.notes
+    agreement, stable_points = Agreement(), 0
+    for note in notes.values():
+        agreement = agreement.joined(Agreement(*note["agreement"]))
+        stable_points += note["stable_points"]
+
+    @lru_cache(maxsize=1)  # they are needed twice, but memory does not bear those of every machine
+    def atlases(member: int) -> dict[str, Atlas]:
+        return _atlases(plan, spool, member)
+
+    widths = [atlas.width for member in range(plan.members) for atlas in atlases(member).values()]
+    with new_volume(path, plan) as writer:
+        writer.create_columns(
+            max(note["intervals"] for note in notes.values() if note["columns"]), max(widths)
+        )
+        for number in range(len(plan)):
+            _write(writer, plan, spool, number, atlases(plan.member(number)))
+        writer.finish(stable_points, agreement)
+    return stable_points, agreement
+
+
+def _atlases(plan: Plan, spool: Spool, member: int) -> dict[str, Atlas]:
+    """The sheets of each condition over the (λ, σ) of one machine of the sweep."""
+    tiles = plan.with_columns(member)
+    found = {}
+    for name in CONDITIONS:
+        rising, falling = zip(*(spool.notes[number]["most_roots"][name] for number in tiles), strict=True)
+        found[name] = Atlas(name, (max(rising), max(falling)))
+    for number in tiles:
+        columns = _columns(spool, number)
+        for name, atlas in found.items():
+            atlas.add(plan.cell(number), columns.roots[name])
+    for atlas in found.values():
+        atlas.finish()
+    return found
+
+
+def _write(writer: VolumeWriter, plan: Plan, spool: Spool, number: int, atlases: dict[str, Atlas]) -> None:
+    place, columns = plan.place(number), spool.notes[number]["columns"]
+    writer.write_fields(place, plan[number].shape, parted(spool.read(number, slice(columns, None))))
+    if columns:
+        found = _columns(spool, number)
+        surfaces = {
+            name: atlas.sheets(plan.cell(number), found.roots[name], found.intervals)
+            for name, atlas in atlases.items()
+        }
+        writer.write_columns(place, found.intervals, surfaces, found.spread)
+
+
+def _columns(spool: Spool, number: int) -> Columns:
+    return Columns.from_bytes(spool.read(number, slice(spool.notes[number]["columns"])))
