@@ -240,7 +240,8 @@ def modes(
     Returns
     -------
     Modes
-        ``eigenvalues`` [1/s] and ``names``, both (4, n): two rows of weave, one of capsize, one of castering;
+        ``eigenvalues`` [1/s] and ``names``, both (4, n): two rows of weave, one of capsize, one of castering
+        as they are at high speeds; what crosses at a weave or capsize end has that name (``modenames``);
         and ``coalescences`` [m/s], where two of them go from real to complex or back.
 
     Raises

@@ -7,9 +7,10 @@ import pytest
 from hypothesis import assume, given, settings
 
 from bikestab.bicycle import Bicycle
-from bikestab.branches import BRANCHES, NAMES, follow
+from bikestab.branches import follow
 from bikestab.errors import InputError
 from bikestab.model import characteristic_table
+from bikestab.modenames import BRANCHES, NAMES, OSCILLATING
 from tests.strategies import lams, machines, sigmas
 from tests.test_model import TWO_MASS_SKATE
 
@@ -256,7 +257,7 @@ def test_random_machines(machine, lam, sigma):
     assert set(modes.names.flat) <= set(NAMES)
 
     real = modes.names != ""
-    for name in ("weave", "pair 2"):
+    for name in OSCILLATING:
         real &= modes.names != name
     size = np.abs(modes.eigenvalues).max(axis=0)
     assert np.all(np.abs(modes.eigenvalues.imag[real]) < 1e-5 * np.broadcast_to(size, real.shape)[real])

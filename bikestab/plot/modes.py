@@ -15,6 +15,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from bikestab.bicycle import Bicycle
 from bikestab.branches import Modes, follow
 from bikestab.model import Floats, Model, characteristic_table
+from bikestab.modenames import OSCILLATING
 from bikestab.plot.axes import HALO, head_angle, remarks
 from bikestab.speeds import KINDS, intervals_of
 
@@ -25,6 +26,8 @@ STYLES: dict[str, tuple[str, float]] = {
     "castering": ("#DDAA33", 2.6),
     "real pair": ("#004488", 1.2),
     "real": ("#004488", 1.2),
+    "weave 2": ("#004488", 1.2),
+    "capsize 2": ("#BB5566", 1.2),
     "pair 2": ("#444444", 1.2),
 }
 DASHES = (0, (4.5, 1.8))
@@ -63,11 +66,12 @@ def draw_modes(
         color, width = STYLES[line.name]
         ax.plot(line.x, line.y, color=color, lw=width, ls=DASHES if line.imaginary else "-")
     missing = _label_lines(ax, lines, edges)
+    oscillates = any(line.imaginary for line in lines)
 
     style: dict[str, Any] = {"color": "0.2", "lw": 1.6}
     handles: list[Any] = [
         Line2D([], [], ls="-", label="real part", **style),
-        Line2D([], [], ls=DASHES, label="|imaginary part|", **style),
+        *([Line2D([], [], ls=DASHES, label="|imaginary part|", **style)] if oscillates else []),
         *(Line2D([], [], color=STYLES[n][0], lw=STYLES[n][1], label=n) for n in missing),
         *([Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="stable")] if edges else []),
     ]
@@ -120,7 +124,7 @@ def _lines(modes: Modes) -> list[_Line]:
     for s, names in zip(modes.eigenvalues, modes.names, strict=True):
         for part in np.split(np.arange(len(names)), np.flatnonzero(names[1:] != names[:-1]) + 1):
             name, x = str(names[part[0]]), modes.V[part]
-            oscillates = name in ("weave", "pair 2")
+            oscillates = name in OSCILLATING
             if oscillates and s.imag[part].sum() < 0:
                 continue
             lines.append(_Line(name, x, s.real[part], False))

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from bikestab.branches import Modes
 
 SPEEDS = QuantityRange("speed", SPEED)
+COLUMNS = ("weave", "capsize", "castering")
 
 
 @click.command("eigen")
@@ -64,10 +65,12 @@ def command(
     Files are written in place of the table, and named on stdout. JSON is an object with what vrange says of
     one design and, at the speeds V, four branches with name, re and im at each.
 
-    Weave is the complex pair at the highest speeds that have exactly one, and of the two real eigenvalues
-    beside it castering is the faster and capsize the slower; each keeps its name at lower speeds. Where the
-    two of weave are real they are called a real pair ('real' if only one is), and any other pair that
-    oscillates pair 2.
+    The pair that crosses the imaginary axis at an end of the stable speeds is weave, the real eigenvalue that
+    crosses zero at one is capsize, and each keeps its name to where it meets another. What makes no end is
+    named after the highest speeds that have exactly one pair: the pair is weave, and of the two real
+    eigenvalues beside it castering is the faster and capsize the slower. What is neither is called real pair
+    where the two of weave are real (real if only one is), pair 2 if it oscillates, and weave 2 or capsize 2
+    beside another of that name.
 
     \b
     Examples:
@@ -115,7 +118,7 @@ def command(
         click.echo(table(DESIGN_HEAD, [design_columns(lam, sigma, bicycle.c)]) + "\n")
         click.echo("\n".join([*map(_told, intervals)] or ["no stable speed"]))
         click.echo("".join(line + "\n" for line in _meetings(modes, max(speeds))))
-        click.echo(table(["V [m/s]", "weave [1/s]", "capsize [1/s]", "castering [1/s]"], _rows(modes)))
+        click.echo(_eigenvalue_table(modes))
 
 
 def _design(bicycle: Bicycle, lam: float | None, sigma: float | None) -> tuple[float, float]:
@@ -158,12 +161,19 @@ def _intervals(coefficients: Any) -> list[dict[str, Any]]:
 
 def _plain(modes: Modes) -> dict[str, Any]:
     """Modes as lists; a branch has one name for each speed, since it can change where two meet."""
-    from bikestab.branches import BRANCHES
+    from bikestab.modenames import BRANCHES
 
     return {
         "coalescences": [
-            {"V": float(V), "branches": list(pair)}
-            for V, pair in zip(modes.coalescences, modes.meeting, strict=True)
+            {
+                "V": float(V),
+                "branches": list(pair),
+                "below": [below[row] for row in pair],
+                "above": [above[row] for row in pair],
+            }
+            for V, pair, below, above in zip(
+                modes.coalescences, modes.meeting, modes.below, modes.above, strict=True
+            )
         ],
         "V": modes.V.tolist(),
         "branches": [
@@ -181,35 +191,47 @@ def _told(interval: dict[str, Any]) -> str:
 
 
 def _meetings(modes: Modes, up_to: float) -> list[str]:
-    from bikestab.branches import BRANCHES
+    """What becomes of the eigenvalues that meet, and of the names of the others."""
+    from bikestab.modenames import OSCILLATING
 
-    return [
-        f"{' and '.join(dict.fromkeys(BRANCHES[row] for row in pair))}: "
-        f"a complex pair on one side of {V:.6f} m/s, two real eigenvalues on the other"
-        for V, pair in zip(modes.coalescences, modes.meeting, strict=True)
-        if up_to >= V
-    ]
-
-
-def _rows(modes: Modes) -> list[list[str]]:
-    return [
-        [f"{V:.6g}", _couple(s[:2], names[:2]), _cell(s[2], names[2]), _cell(s[3], names[3])]
-        for V, s, names in zip(modes.V, modes.eigenvalues.T, modes.names.T, strict=True)
-    ]
-
-
-def _couple(s: Any, names: Any) -> str:
-    """The two branches of weave in one cell."""
-    if names[0] == "weave":
-        return f"{s[0].real:z.6f} ± {abs(s[0].imag):z.6f}i"
-    if names[0] == names[1] == "real pair":
-        return f"{s[0].real:z.6f}, {s[1].real:z.6f} (real pair)"
-    return ", ".join(_cell(value, name) for value, name in zip(s, names, strict=True))
+    lines = []
+    for V, pair, below, above in zip(
+        modes.coalescences, modes.meeting, modes.below, modes.above, strict=True
+    ):
+        before, behind = (", ".join(dict.fromkeys(names[row] for row in pair)) for names in (below, above))
+        if above[pair[0]] in OSCILLATING:
+            line = f"two real eigenvalues ({before}) become a complex pair ({behind})"
+        else:
+            line = f"a complex pair ({before}) becomes two real eigenvalues ({behind})"
+        others = [
+            (below[row], above[row]) for row in range(4) if row not in pair and below[row] != above[row]
+        ]
+        renamed = [f"; {old} is {new} from there on" for old, new in dict.fromkeys(others)]
+        if up_to >= V:
+            lines.append(f"at {V:.6f} m/s {line}{''.join(renamed)}")
+    return lines
 
 
-def _cell(s: complex, name: str) -> str:
-    if name in ("capsize", "castering"):
-        return f"{s.real:z.6f}"
-    if name == "pair 2":
-        return f"{s.real:z.6f} {'-' if s.imag < 0 else '+'} {abs(s.imag):z.6f}i (pair 2)"
-    return f"{s.real:z.6f} ({name})"
+def _eigenvalue_table(modes: Modes) -> str:
+    """A row for each speed, a column for each of the three modes and one for what else there is."""
+    rows = [_row(s, names) for s, names in zip(modes.eigenvalues.T, modes.names.T, strict=True)]
+    head = ["V [m/s]", *(f"{name} [1/s]" for name in COLUMNS), "others [1/s]"]
+    cells = [[f"{V:.6g}", *row] for V, row in zip(modes.V, rows, strict=True)]
+    used = 5 if any(row[-1] for row in rows) else 4
+    return table(head[:used], [row[:used] for row in cells])
+
+
+def _row(s: Any, names: Any) -> list[str]:
+    """The eigenvalues at a speed in the columns of their names; those of others have the name behind."""
+    cells = {name: _motion(s[names == name]) for name in dict.fromkeys(names.tolist())}
+    if "weave" not in cells and "real pair" in cells:
+        cells["weave"] = f"{cells.pop('real pair')} (real pair)"
+    others = [f"{text} ({name})" for name, text in cells.items() if name not in COLUMNS]
+    return [*(cells.get(name, "") for name in COLUMNS), ", ".join(others)]
+
+
+def _motion(s: Any) -> str:
+    """The eigenvalues of one name: pairs as one, real ones each."""
+    return ", ".join(
+        f"{x.real:z.6f} ± {x.imag:z.6f}i" if x.imag else f"{x.real:z.6f}" for x in s if x.imag >= 0
+    )

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from itertools import pairwise
 
 import click
@@ -18,6 +19,42 @@ from bikestab.plot.modes import STYLES, draw_modes
 BENCHMARK = ("--bicycle", "meijaard2007")
 
 
+RECUMBENT = """\
+w: 1.092
+c: 0.089
+lam: 0.129154
+g: 9.81
+rR: 0.2445
+mR: 1.14
+IRxx: 0.02
+IRyy: 0.04
+xB: 0.68151
+zB: -0.39088
+mB: 106.216
+IBxx: 5.55605664918
+IByy: 25.06012355961
+IBzz: 23.52409141966
+IBxz: 2.04399182523
+xH: 1.0
+zH: -0.604
+mH: 3.17
+IHxx: 0.0757714812
+IHyy: 0.08696201242
+IHzz: 0.01550348533
+IHxz: 0.03034277154
+rF: 0.2445
+mF: 1.81
+IFxx: 0.027
+IFyy: 0.052
+"""  # BicycleParameters' recumbent with rider A
+
+
+def recumbent(folder):
+    path = folder / "recumbent.yaml"
+    path.write_text(RECUMBENT, encoding="utf-8")
+    return path
+
+
 def run(*args):
     result = CliRunner().invoke(command, args, standalone_mode=False)
     if result.exception:
@@ -28,7 +65,7 @@ def run(*args):
 def test_table():
     out = run(*BENCHMARK, "--V", "0:10:3")
     assert "stable from 4.292383 m/s (weave) to 6.024262 m/s (capsize)" in out
-    assert "weave: a complex pair on one side of 0.684283 m/s, two real eigenvalues on the other" in out
+    assert "at 0.684283 m/s two real eigenvalues (real pair) become a complex pair (weave)" in out
     rows = out.splitlines()[-4:]
     assert len({len(row) for row in rows}) == 1
     assert [" ".join(row.split()) for row in rows] == [
@@ -39,13 +76,33 @@ def test_table():
     ]
 
 
-def test_table_where_names_have_no_meaning():
+def rows_of(out):
+    """The cells of the table of eigenvalues, which are at least two blanks apart."""
+    return [re.split(r" {2,}", line.strip()) for line in out.split("\n\n")[-1].splitlines()]
+
+
+def test_table_of_what_is_neither_weave_nor_capsize_nor_castering():
     second = run("--lam", "0.1", "--sigma", "0.08", "--V", "0.5")
     assert "no stable speed" in second
-    assert "1.833694 (real pair)  -2.881991 + 0.188016i (pair 2)  -2.881991 - 0.188016i (pair 2)" in second
+    assert rows_of(second) == [
+        ["V [m/s]", "weave [1/s]", "capsize [1/s]", "castering [1/s]", "others [1/s]"],
+        ["0.5", "3.080037, 1.833694 (real pair)", "-2.881991 ± 0.188016i (pair 2)"],
+    ]
     mixed = run("--lam", "0.05", "--sigma", "0.15", "--V", "0")
     assert "stable from 4.806507 m/s (weave) on, without upper limit" in mixed
-    assert "3.232112 (real), 0.000000 + 0.922212i (pair 2)  0.000000 - 0.922212i (pair 2)" in mixed
+    assert rows_of(mixed)[1] == ["0", "-3.232112", "3.232112 (real), 0.000000 ± 0.922212i (pair 2)"]
+
+
+def test_what_meets_and_what_is_renamed(tmp_path):
+    """A recumbent whose weave is made by other branches than the pair of high speeds."""
+    out = run("--bicycle", str(recumbent(tmp_path)), "--V", "7:9:3")
+    assert "stable from 8.117449 m/s (weave) on, without upper limit" in out
+    assert "at 6.641718 m/s two real eigenvalues (capsize, real pair) become a complex pair (weave)" in out
+    assert "9.687128" not in out  # beyond the speeds asked for
+    assert rows_of(out)[1][0:2] == ["7", "0.334459 ± 0.301294i"]
+    found = json.loads(run("--bicycle", str(recumbent(tmp_path)), "--V", "7:9:3", "--json"))
+    meeting = {key: found["coalescences"][2][key] for key in ("branches", "below", "above")}
+    assert meeting == {"branches": [2, 0], "below": ["weave", "weave"], "above": ["capsize", "real pair"]}
 
 
 def test_json():
@@ -61,7 +118,10 @@ def test_json():
         "V1": pytest.approx(4.29238253634111, abs=1e-12), "lower": "weave",
         "V2": pytest.approx(6.02426201538837, abs=1e-12), "upper": "capsize",
     }  # fmt: skip
-    assert found["coalescences"] == [{"V": pytest.approx(0.68428307889246, abs=1e-12), "branches": [0, 1]}]
+    assert found["coalescences"] == [
+        {"V": pytest.approx(0.68428307889246, abs=1e-12), "branches": [0, 1],
+         "below": ["real pair", "real pair"], "above": ["weave", "weave"]}
+    ]  # fmt: skip
     assert found["V"] == pytest.approx(list(range(11)))
     assert [b["branch"] for b in found["branches"]] == ["weave", "weave", "capsize", "castering"]
     upper, lower, capsize, castering = found["branches"]
