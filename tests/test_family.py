@@ -8,7 +8,7 @@ from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.curves import trace
-from bikestab.region.skeleton import stable_ranges
+from bikestab.region.lines import stable_ranges
 from bikestab.speeds import intervals_of
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")

@@ -13,7 +13,7 @@ from bikestab.model import Floats, characteristic_table, coefficients
 from bikestab.paper1981 import claims
 from bikestab.paper1981.box import LAM, SIGMA, middles
 from bikestab.paper1981.maps import Flags, has_unbounded, widths
-from bikestab.region.skeleton import lowest_stable
+from bikestab.region.lines import lowest_stable
 from bikestab.speeds import CAPSIZE, WEAVE, intervals_of
 
 DESIGNS = ((0.20, 0.08), (0.30, 0.10), (0.05, 0.15), (0.12, 0.12))  # (λ, σ), stable without damping

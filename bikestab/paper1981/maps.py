@@ -12,7 +12,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.paper1981.box import LAM, SIGMA, Range, V, middles
-from bikestab.region.skeleton import Line, crossings
+from bikestab.region.lines import Line, crossings
 from bikestab.speeds import Intervals, intervals_of
 
 Flags = NDArray[np.bool_]

@@ -13,7 +13,7 @@ from bikestab.family import Family
 from bikestab.model import Floats, characteristic_table
 from bikestab.paper1981.box import LAM, SIGMA, Range, V
 from bikestab.paper1981.maps import DesignMap, unbounded_ranges, widths
-from bikestab.region.skeleton import lowest_stable, stable_ranges
+from bikestab.region.lines import lowest_stable, stable_ranges
 from bikestab.speeds import intervals_of
 
 SIGMAS = (0.06, 0.08, 0.10, 0.11, 0.12, 0.13, 0.14, 0.15)

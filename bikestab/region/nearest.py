@@ -9,7 +9,7 @@ import numpy as np
 
 from bikestab.family import Family
 from bikestab.model import Floats
-from bikestab.region.skeleton import stable_ranges
+from bikestab.region.lines import stable_ranges
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
 

@@ -9,7 +9,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.curves import NAMES, trace
-from bikestab.region.skeleton import stable_ranges
+from bikestab.region.lines import stable_ranges
 from bikestab.speeds import intervals_of
 from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
 from tests.strategies import machines

@@ -9,14 +9,8 @@ from hypothesis import example, given, settings
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import characteristic_table
-from bikestab.region.skeleton import (
-    Line,
-    crossings,
-    curve_functions,
-    lowest_stable,
-    reduced,
-    stable_ranges,
-)
+from bikestab.region.lines import Line, crossings, lowest_stable, stable_ranges
+from bikestab.region.skeleton import curve_functions, reduced
 from bikestab.routh import stable
 from bikestab.speeds import intervals_of
 from tests.strategies import machines, sigmas
