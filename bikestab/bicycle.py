@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.limits import check_product, check_tilt, check_trail, check_value, doubts
+from bikestab.limits import check_product, check_tilt, check_trail, check_value, part_warnings
 from bikestab.notation import MEIJAARD, OPTIONAL, two_parts
 from bikestab.units import ANGLE, PURE, quantity, shown
 
@@ -93,23 +93,9 @@ class Bicycle:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What no rigid bodies on the ground can have, one sentence each."""
-        found = list(self.remarks)
-        for i, part, A, B, C, m, R, h in (
-            ("1", "rear", self.A1, self.B1, self.C1, self.m1, self.R1, self.h1),
-            ("2", "front", self.A2, self.B2, self.C2, self.m2, self.R2, self.h2),
-        ):
-            inertias, wheel, below = doubts(A, B, C, m, R, h)
-            if inertias:
-                found.append(
-                    f"no rigid {part} part has A{i} + B{i} < C{i}: {A:g} + {B:g} = {A + B:g} < {C:g} kg m²"
-                )
-            if wheel:
-                found.append(
-                    f"no wheel within the {part} part has C{i} > m{i} R{i}²: {C:g} > {m * R**2:g} kg m²"
-                )
-            if below:
-                found.append(f"the {part} centre of mass is below the ground: h{i} = {h:g} m")
-        return tuple(found)
+        rear = self.A1, self.B1, self.C1, self.m1, self.R1, self.h1, -self.l1
+        front = self.A2, self.B2, self.C2, self.m2, self.R2, self.h2, self.c - self.l2
+        return (*self.remarks, *part_warnings("1", "rear", *rear), *part_warnings("2", "front", *front))
 
     def numbers(self) -> dict[str, float | None]:
         """The parameters by name, as plain numbers."""

@@ -44,11 +44,54 @@ def exceeds(a: Any, b: Any) -> Any:
     return a > b * (1 + 1e-9)  # published inertias of thin discs sit exactly on the limit
 
 
-def doubts(A: Any, B: Any, C: Any, m: Any, R: Any, h: Any) -> tuple[Any, Any, Any]:
-    """Whether a part has inertias that no rigid body, a wheel that no body of its mass, or a centre that
-    nothing on the ground has; of floats or arrays.
+def doubts(A: Any, B: Any, C: Any, m: Any, R: Any, h: Any, ahead: Any) -> tuple[Any, Any, Any, Any]:
+    """What no part of rigid bodies on the ground has; of floats or arrays.
+
+    Inertias that no rigid body has; a wheel that no body of the part's mass is; a centre of mass below the
+    ground; and, where neither of the first two is so, a wheel that does not fit into A and B: ``least_with``.
+    ``ahead`` [m] is how far the wheel's centre is ahead of the part's centre of mass.
     """
-    return exceeds(C, A + B), exceeds(C, m * R**2), h < 0
+    inertias, wheel = exceeds(C, A + B), exceeds(C, m * R**2)
+    above = h - R
+    rest = (m * R**2 - C) * (m * R**2 > C)  # of the mass, times R²; 0 where the wheel is all of it
+    tight_A = exceeds(C / 2 * rest + C * m * above**2, A * rest)
+    tight_B = exceeds(C / 2 * rest + C * m * ahead**2, B * rest)
+    return inertias, wheel, h < 0, (tight_A | tight_B) > (inertias | wheel)
+
+
+def part_warnings(
+    i: str, part: str, A: float, B: float, C: float, m: float, R: float, h: float, ahead: float
+) -> list[str]:
+    """``doubts`` about one part in sentences."""
+    inertias, wheel, below, tight = doubts(A, B, C, m, R, h, ahead)
+    sentences = []
+    if inertias:
+        sentences.append(
+            f"no rigid {part} part has A{i} + B{i} < C{i}: {A:g} + {B:g} = {A + B:g} < {C:g} kg m²"
+        )
+    if wheel:
+        sentences.append(f"no wheel within the {part} part has C{i} > m{i} R{i}²: {C:g} > {m * R**2:g} kg m²")
+    if tight:
+        least = {"A": (A, least_with(C, m, R, R - h)), "B": (B, least_with(C, m, R, ahead))}
+        small = [
+            f"{n}{i} = {value:g} < {lowest:.4g}" for n, (value, lowest) in least.items() if lowest > value
+        ]
+        sentences.append(f"no {part} part with a wheel of C{i} = {C:g} has {', '.join(small)} kg m²")
+    if below:
+        sentences.append(f"the {part} centre of mass is below the ground: h{i} = {h:g} m")
+    return sentences
+
+
+def least_with(C: float, m: float, R: float, away: float) -> float:
+    """The least A or B [kg m²] of a part of mass m with a wheel of spin inertia C, C < m R², in it.
+
+    A wheel has at least C/2 about any diameter, since C is at most the sum of two of those, and a mass of at
+    least C/R², since none of it is farther from the axle than R. If its centre is ``away`` [m] from
+    the part's centre of mass, it and the rest have their masses' moments about that as well
+    (parallel axes), together m C/(m R² − C) times the distance squared.
+    """
+    rest = m * R**2 - C
+    return C / 2 + (m * C / rest * away**2 if rest > 0 else math.inf if away else 0.0)
 
 
 def allowed(value: Any, check: str) -> Any:

@@ -105,11 +105,14 @@ class Machines:
         """How many machines have what no rigid bodies on the ground can have, by what it is."""
         found = {}
         for i, part in (("1", "rear"), ("2", "front")):
-            flags = doubts(*(getattr(self, f"{letter}{i}") for letter in "ABCmRh"))
+            ahead = -self.l1 if i == "1" else self.c - self.l2
+            A, B, C, m, R, h = (getattr(self, f"{letter}{i}") for letter in "ABCmRh")
+            flags = doubts(A, B, C, m, R, h, ahead)
             words = (
                 f"no rigid {part} part has A{i} + B{i} < C{i}",
                 f"no wheel within the {part} part has C{i} > m{i} R{i}²",
                 f"the {part} centre of mass is below the ground",
+                f"no {part} part with a wheel of its C{i} has its A{i} and B{i}",
             )
             for text, flag in zip(words, flags, strict=True):
                 found[text] = int(np.count_nonzero(np.broadcast_to(flag, self.shape)))

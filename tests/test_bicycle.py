@@ -5,7 +5,8 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle, parameters, preset_names, preset_text
 from bikestab.errors import InputError
@@ -265,8 +266,10 @@ def test_warnings_of_the_papers_values():
     [
         (SOUND, {"C1": 11, "m1": 100}, "rear part has A1 + B1 < C1"),
         (SOUND, {"C1": 9.9}, "no wheel within the rear part has C1 > m1 R1²"),
+        (SOUND, {"A2": 0.02}, "no front part with a wheel of C2 = 0.2 has A2 = 0.02 < 0.1929 kg m²"),
+        (SOUND, {"B2": 0.03}, "no front part with a wheel of C2 = 0.2 has B2 = 0.03 < 0.1809 kg m²"),
         (SOUND, {"h1": -0.1}, "the rear centre of mass is below the ground: h1 = -0.1 m"),
-        (SOUND, {"h2": -0.1}, "the front centre of mass is below the ground: h2 = -0.1 m"),
+        (SOUND, {"h2": -0.1, "A2": 3}, "the front centre of mass is below the ground: h2 = -0.1 m"),
         (BENCHMARK, {"IRyy": 0.1207}, "no rigid rear wheel has IRyy > 2 IRxx"),
         (BENCHMARK, {"IFyy": 0.2811}, "no rigid front wheel has IFyy > 2 IFxx"),
         (BENCHMARK, {"IByy": 12.1}, "no rigid body has IByy = 12.1"),
@@ -279,6 +282,26 @@ def test_warnings(base, changes, words):
     assert words in warning
 
 
+@settings(max_examples=200, deadline=None)
+@given(
+    st.floats(0.5, 1), st.floats(0.5, 1), st.floats(0.01, 0.99), st.floats(-1, 1), st.floats(-1, 1),
+    st.floats(0.2, 0.5),
+)  # fmt: skip
+def test_a_wheel_and_a_point_mass_are_a_possible_front_part(rim, thickness, share, x, z, R):
+    """Put together by the parallel-axis theorem; with less inertia than a rim and a point mass it is not."""
+    m, wheel, rest = 10.0, share * 10.0, (1 - share) * 10.0
+    l2, h2 = PAPER["c"] - rest / m * x, R + rest / m * z  # the wheel's centre is at (c, R)
+    assume(h2 >= 0)
+    C2 = rim * wheel * R**2
+    A2, B2 = (thickness * C2 + wheel * rest / m * away**2 for away in (z, x))
+    values = {**SOUND, "m2": m, "R": R, "C1": 0, "C2": C2, "A2": A2, "B2": B2, "l2": l2, "h2": h2}
+    assert make(values).warnings == ()
+    least = C2 / 2 + C2 / R**2 * m / (m - C2 / R**2) * (R - h2) ** 2
+    assume(0.99 * least + B2 > 1.001 * C2)
+    (warning,) = make({**values, "A2": 0.99 * least}).warnings
+    assert "no front part with a wheel of C2 = " in warning
+
+
 def test_pitch_inertias_are_optional_and_without_effect():
     with_, without = make(BENCHMARK), make(BENCHMARK, IByy=None, IHyy=None)
     assert with_ == without
@@ -287,8 +310,10 @@ def test_pitch_inertias_are_optional_and_without_effect():
 @settings(deadline=None, max_examples=60, derandomize=True)
 @given(machine=machines)
 def test_possible_machines_pass(machine):
-    """The only remark may be the spin of a wheel the paper's notation says too little about."""
-    assert not [text for text in Bicycle.from_mapping(machine).warnings if "no wheel within" not in text]
+    """The only remarks may be about a wheel the paper's notation says too little about."""
+    about_a_wheel = ("no wheel within", "part with a wheel of") if "A2" in machine else ()
+    warnings = Bicycle.from_mapping(machine).warnings
+    assert not [text for text in warnings if not any(words in text for words in about_a_wheel)]
 
 
 # --- presets, files, identity

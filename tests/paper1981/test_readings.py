@@ -33,7 +33,7 @@ def test_the_reading_that_is_bounded_in_the_box():
 
 
 def test_a_possible_machine_refutes_conclusion_1_too():
-    found = judge_reading(all_readings()["A1 ⇄ B1, C = 0.1"], TINY.grid_readings)
+    found = judge_reading(all_readings()["A1 ⇄ B1, C = 0.05"], TINY.grid_readings)
     assert found.rigid
     assert found.verdicts["1"] == "does not hold"
     assert found.formula_disagreements == 0
