@@ -23,7 +23,7 @@ _CHUNK = 1 << 14
 
 
 class Intervals(NamedTuple):
-    """Stable speeds V1 < V < V2 [m/s] of each cell, ascending; shape (*shape, interval).
+    """Stable speeds V1 < V < V2 [m/s] of each cell, ascending; shape ``(*shape, interval)``.
 
     V1 and V2 are NaN behind a cell's last interval; V2 is inf where it is unbounded above.
     ``lower`` and ``upper`` are indices into KINDS: what happens at either end.

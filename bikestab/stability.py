@@ -53,7 +53,7 @@ def stable_intervals(
     -------
     Intervals
         ``V1``, ``V2`` [m/s], and what happens there, ``lower``, ``upper``, as indices into ``KINDS``. Each
-        has the shape (\\*shape, interval): ascending, NaN and ``"none"`` behind a design's last interval,
+        has the shape ``(*shape, interval)``: ascending, NaN and ``"none"`` behind a design's last interval,
         ``V2`` = inf where there is no upper limit. ``number`` is how many intervals each design has.
 
     Raises
@@ -106,7 +106,7 @@ def eigenvalues(
     Returns
     -------
     ndarray of complex
-        Eigenvalues [1/s], shape (4, \\*shape). NaN where the mass matrix is singular.
+        Eigenvalues [1/s], shape ``(4, *shape)``. NaN where the mass matrix is singular.
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """The boundary's triangle mesh as a file for VTK and ParaView, or for programs that read PLY and STL.
 
-docs/format.md describes what is in the files. PLY and STL are written here and not by VTK, whose PLY
+docs/exports.md describes what is in the files. PLY and STL are written here and not by VTK, whose PLY
 has single precision and no attributes of one's own, and whose writers tell of a full disk only on stderr.
 """
 

@@ -1,6 +1,6 @@
 """Stable intervals, the skeleton's curves, modes and the best designs as tables, in CSV or Parquet.
 
-docs/format.md describes the columns.
+docs/exports.md describes the columns.
 """
 
 from __future__ import annotations
