@@ -103,8 +103,7 @@ def scan(
     try:
         done = run_scan(loaded, force=force, jobs=jobs, scheduler=scheduler, progress=progress)
     except InputError as error:
-        place = error.place or place
-        raise InputError(error.problem, key=error.key, hint=error.hint, place=place) from None
+        raise error.at(place) from None
     pictures = draw_pictures(loaded, done.path, _warn)
     return Scan(done.path, tuple(pictures), done.computed, done.points, done.stable_points)
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import textwrap
 
 import click
-from bikestab_cli.options import json_option, print_json
+from bikestab_cli.options import json_option
+from bikestab_cli.output import print_json
 
 
 @click.command("bicycles")

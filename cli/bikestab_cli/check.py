@@ -7,12 +7,11 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import table
-
-from bikestab.errors import InputError
+from bikestab_cli.options import of_file
+from bikestab_cli.output import table
 
 if TYPE_CHECKING:
-    from bikestab.config.scanconfig import Expectation, ScanConfig
+    from bikestab.config.expectations import Outcome
 
 
 @click.command("check")
@@ -28,17 +27,15 @@ def command(configs: tuple[str, ...]) -> None:
     Example:
       bikestab check configs/dikarev1981.yaml configs/meijaard2007.yaml
     """
+    from bikestab.config.expectations import outcomes
     from bikestab.config.file import load_config
 
     rows, failed = [], 0
     for name in configs:
-        config = load_config(name)
-        if not config.expect:
-            raise InputError("has no expectations", place=name, hint="add 'expect:', see 'bikestab init'")
-        for i, expectation in enumerate(config.expect):
-            found, holds = _compare(name, config, expectation, i)
-            failed += not holds
-            rows.append([name, *found, "holds" if holds else "FAILED"])
+        with of_file(name):
+            found = outcomes(load_config(name))
+        failed += sum(not outcome.holds for outcome in found)
+        rows += [[name, *_row(outcome)] for outcome in found]
     with suppress(BrokenPipeError):  # the exit code is wanted also by those who read no more
         click.echo(table(["config", "lam", "sigma", "expected [m/s]", "found [m/s]", ""], rows))
     if failed:
@@ -46,33 +43,14 @@ def command(configs: tuple[str, ...]) -> None:
         click.get_current_context().exit(1)
 
 
-def _compare(name: str, config: ScanConfig, expected: Expectation, i: int) -> tuple[list[str], bool]:
-    from bikestab.model import characteristic_table
-    from bikestab.speeds import intervals_of
-
-    lam = config.machine.lam if expected.lam is None else expected.lam
-    sigma = config.machine.sigma if expected.sigma is None else expected.sigma
-    if lam is None or sigma is None:
-        raise InputError(
-            f"the bicycle {config.machine.name!r} has no own {'lam' if lam is None else 'sigma'}",
-            key=("expect", i), place=name, hint="give lam and sigma in the entry",
-        )  # fmt: skip
-    intervals = intervals_of(characteristic_table(config.machine, lam, sigma, model=config.model))
-    found = list(zip(intervals.V1, intervals.V2, strict=True))[: int(intervals.number)]
-    holds = not found
-    if expected.stable is None:
-        holds = any(
-            _near(V1, expected.V1, expected.within) and _near(V2, expected.V2, expected.within)
-            for V1, V2 in found
-        )
+def _row(outcome: Outcome) -> list[str]:
+    expected = outcome.expected
     wanted = "never" if expected.stable else f"{_text(expected.V1)} ... {_text(expected.V2)}"
-    shown = ", ".join(f"{_text(V1)} ... {_text(V2)}" for V1, V2 in found) or "never"
-    return [f"{lam:.6g}", f"{sigma:.6g}", wanted, shown], holds
+    found = ", ".join(f"{_text(i['V1'])} ... {_text(i['V2'], math.inf)}" for i in outcome.found) or "never"
+    verdict = "holds" if outcome.holds else "FAILED"
+    return [f"{outcome.lam:.6g}", f"{outcome.sigma:.6g}", wanted, found, verdict]
 
 
-def _near(found: float, wanted: float | None, within: float) -> bool:
-    return wanted is None or found == wanted or abs(found - wanted) <= within
-
-
-def _text(V: float | None) -> str:
+def _text(V: float | None, none: float | None = None) -> str:
+    V = none if V is None else V
     return "any" if V is None else "unbounded" if math.isinf(V) else f"{V:.13g}"

@@ -2,37 +2,32 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.options import (
-    ANGLE_VALUE,
-    DESIGN_HEAD,
-    TRAIL_VALUE,
-    QuantityRange,
-    design_columns,
+    SPEEDS,
+    check_files,
     json_option,
     load_bicycle,
     machine_options,
-    print_json,
-    table,
+    tilt_option,
+    told_as_options,
+    trail_option,
 )
-
-from bikestab.units import SPEED
+from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, print_json, table
 
 if TYPE_CHECKING:
-    from bikestab.bicycle import Bicycle
     from bikestab.branches import Modes
+    from bikestab.records import Interval
 
-SPEEDS = QuantityRange("speed", SPEED)
 COLUMNS = ("weave", "capsize", "castering")
 
 
 @click.command("eigen")
-@click.option("--lam", type=ANGLE_VALUE, metavar="ANGLE", help="Tilt of the steering axis: 0.1 or 18deg.")
-@click.option("--sigma", type=TRAIL_VALUE, metavar="NUMBER", help="Trail divided by the wheelbase: 0.08.")
+@tilt_option
+@trail_option
 @click.option(
     "--V",
     "speeds",
@@ -79,111 +74,47 @@ def command(
       bikestab eigen --bicycle meijaard2007 --V 0:36km/h:361 -o modes.png --csv modes.csv
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
-    from bikestab.branches import follow
     from bikestab.export.tables import MODES, modes_blocks, save_csv
-    from bikestab.model import characteristic_table
+    from bikestab.records import design_record, interval_records, modes_record
+    from bikestab.stability import design_of, modes, stable_intervals
 
-    if min(speeds) < 0:
-        raise click.BadParameter(f"{min(speeds):g} m/s is negative; allowed: 0 and above", param_hint="--V")
     if output and min(speeds) == max(speeds):
         raise click.BadParameter("a picture needs a range, for example 0:10:21", param_hint="--V")
     if output and not Path(output).suffix:
         raise click.BadParameter(
             f"{output!r} has no ending, such as .png, .pdf or .svg", param_hint="--output"
         )
+    check_files(csv_file, output)
     bicycle = load_bicycle(bicycle_name, delta)
-    lam, sigma = _design(bicycle, lam, sigma)
-    coefficients = characteristic_table(bicycle, lam, sigma, model=model)
-    modes = follow(coefficients, speeds)
-    intervals = _intervals(coefficients)
+    with told_as_options():
+        tilt, trail = (float(value) for value in design_of(bicycle, lam, sigma))
+        found = modes(bicycle, speeds, tilt, trail, model=model)
+    intervals = interval_records(stable_intervals(bicycle, tilt, trail, model=model))
     files = {}
     if csv_file:
-        save_csv(MODES, modes_blocks(modes), csv_file)
+        save_csv(MODES, modes_blocks(found), csv_file)
         files["csv"] = csv_file
     if output:
         from bikestab.plot.files import save
         from bikestab.plot.modes import draw_modes
 
-        figure = draw_modes(bicycle, lam, sigma, min(speeds), max(speeds), model=model)
-        save(figure, Path(output))
+        save(draw_modes(bicycle, tilt, trail, min(speeds), max(speeds), model=model), Path(output))
         files["picture"] = output
     if as_json:
-        head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "lam": lam, "sigma": sigma}
-        head |= {"head_angle_deg": 90 - math.degrees(lam), "trail": sigma * bicycle.c}
-        print_json({**head, "intervals": intervals, **_plain(modes), **files})
+        head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta}
+        design = design_record(tilt, trail, bicycle.c)
+        print_json({**head, **design, "intervals": intervals, **modes_record(found), **files})
     elif files:
         click.echo("\n".join(files.values()))
     else:
-        click.echo(f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s\n")
-        click.echo(table(DESIGN_HEAD, [design_columns(lam, sigma, bicycle.c)]) + "\n")
+        click.echo(heading(bicycle, model) + "\n")
+        click.echo(table(DESIGN_HEAD, [design_columns(tilt, trail, bicycle.c)]) + "\n")
         click.echo("\n".join([*map(_told, intervals)] or ["no stable speed"]))
-        click.echo("".join(line + "\n" for line in _meetings(modes, max(speeds))))
-        click.echo(_eigenvalue_table(modes))
+        click.echo("".join(line + "\n" for line in _meetings(found, max(speeds))))
+        click.echo(_eigenvalue_table(found))
 
 
-def _design(bicycle: Bicycle, lam: float | None, sigma: float | None) -> tuple[float, float]:
-    """The tilt and trail asked for, or the bicycle's own."""
-    from bikestab.errors import InputError
-    from bikestab.limits import check_tilt, check_trail
-
-    lam = bicycle.lam if lam is None else lam
-    sigma = bicycle.sigma if sigma is None else sigma
-    if lam is None or sigma is None:
-        name, example = ("lam", "0.2") if lam is None else ("sigma", "0.08")
-        raise click.UsageError(
-            f"the bicycle {bicycle.name!r} has no {name} of its own: give --{name}, "
-            f"for example --{name} {example}",
-            click.get_current_context(),
-        )
-    for option, check, value in (("--lam", check_tilt, lam), ("--sigma", check_trail, sigma)):
-        try:
-            check(value, ())
-        except InputError as error:
-            raise click.BadParameter(f"{error.problem}; {error.hint}", param_hint=option) from None
-    return lam, sigma
-
-
-def _intervals(coefficients: Any) -> list[dict[str, Any]]:
-    """As in vrange --json; null is unbounded."""
-    from bikestab.speeds import KINDS, intervals_of
-
-    found = intervals_of(coefficients)
-    return [
-        {
-            "V1": float(V1),
-            "V2": None if math.isinf(V2) else float(V2),
-            "lower": KINDS[lower],
-            "upper": KINDS[upper],
-        }
-        for V1, V2, lower, upper in zip(*(values[: found.number] for values in found), strict=True)
-    ]
-
-
-def _plain(modes: Modes) -> dict[str, Any]:
-    """Modes as lists; a branch has one name for each speed, since it can change where two meet."""
-    from bikestab.modenames import BRANCHES
-
-    return {
-        "coalescences": [
-            {
-                "V": float(V),
-                "branches": list(pair),
-                "below": [below[row] for row in pair],
-                "above": [above[row] for row in pair],
-            }
-            for V, pair, below, above in zip(
-                modes.coalescences, modes.meeting, modes.below, modes.above, strict=True
-            )
-        ],
-        "V": modes.V.tolist(),
-        "branches": [
-            {"branch": branch, "name": names.tolist(), "re": s.real.tolist(), "im": s.imag.tolist()}
-            for branch, names, s in zip(BRANCHES, modes.names, modes.eigenvalues, strict=True)
-        ],
-    }
-
-
-def _told(interval: dict[str, Any]) -> str:
+def _told(interval: Interval) -> str:
     lower = f"{interval['V1']:.6f} m/s ({interval['lower']})"
     if interval["V2"] is None:
         return f"stable from {lower} on, without upper limit"

@@ -6,12 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from bikestab_cli.options import at_option
+from bikestab_cli.options import Ends, at_option, check_files
+from bikestab_cli.output import count
 
 if TYPE_CHECKING:
     from bikestab.volume import Volume
-
-Ends = tuple[float, float]
 
 
 class _Scale(click.ParamType):
@@ -73,7 +72,6 @@ def command(
       bikestab export out/quick --mesh region.vtp --mesh region.stl --scale 50,100,1
       bikestab export out/quick --intervals intervals.parquet
     """
-    from bikestab.errors import InputError
     from bikestab.export.formats import file_format
     from bikestab.export.meshes import MESHES
     from bikestab.export.tables import TABLES
@@ -88,12 +86,7 @@ def command(
         for name in names:
             file_format(name, known)  # before the computation, which takes seconds
     names = (*meshes, *intervals, *skeleton)
-    places = [Path(name).absolute() for name in names]
-    for name, place in zip(names, places, strict=True):
-        if places.count(place) > 1:
-            raise click.UsageError(f"{name} is asked for twice", click.get_current_context())
-        if not place.parent.is_dir():
-            raise InputError("cannot be written (No such file or directory)", place=name)
+    check_files(*names)
     with Volume(volume) as whole:
         opened = whole.at(machine)
         about = _about(opened)
@@ -129,7 +122,7 @@ def _write_intervals(volume: Volume, names: tuple[str, ...], about: dict[str, st
     for name in names:
         save_table(INTERVALS, interval_blocks(volume), Path(name), about)
         click.echo(
-            f"{name}: {_count(intervals, 'interval')}; "
+            f"{name}: {count(intervals, 'interval')}; "
             f"{without} of {designs} designs have no stable speed and no row"
         )
 
@@ -145,7 +138,7 @@ def _write_skeleton(volume: Volume, names: tuple[str, ...], about: dict[str, str
     points = sum(len(curve.x) for curve in curves)
     for name in names:
         save_table(SKELETON, skeleton_blocks(curves, bicycle.c), Path(name), about)
-        click.echo(f"{name}: {_count(len(curves), 'curve')} of {_count(points, 'point')}")
+        click.echo(f"{name}: {count(len(curves), 'curve')} of {count(points, 'point')}")
 
 
 def _write_mesh(
@@ -170,10 +163,6 @@ def _write_mesh(
     for name in names:
         save_mesh(mesh, Path(name), factors, about)
         click.echo(
-            f"{name}: {_count(len(mesh.points), 'point')}, {_count(len(mesh.triangles), 'triangle')} "
+            f"{name}: {count(len(mesh.points), 'point')}, {count(len(mesh.triangles), 'triangle')} "
             f"({weave} weave, {capsize} capsize); {scale_text(factors)}"
         )
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"

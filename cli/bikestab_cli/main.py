@@ -55,14 +55,17 @@ def cli() -> None:
     """
 
 
-def main() -> None:
-    """Run the command line; errors are one to three lines on stderr, never a traceback."""
+def main(program: str = "bikestab") -> None:
+    """Run the command line; errors are one to three lines on stderr, never a traceback.
+
+    ``program`` is what was typed to run it.
+    """
     atexit.register(gc.freeze)  # the exit is 10 ms sooner if it looks for no garbage
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  # a device, open to the end
     code = 0
     try:
-        code = _run(sys.argv[1:])
+        code = _run(program, sys.argv[1:])
         sys.stdout.flush()
     except BrokenPipeError:  # the reader of a pipe, such as head, has had enough
         _drop_output()
@@ -72,9 +75,9 @@ def main() -> None:
     sys.exit(code)
 
 
-def _run(args: list[str]) -> int:
+def _run(program: str, args: list[str]) -> int:
     try:
-        with cli.make_context("bikestab", args) as context:
+        with cli.make_context(program, args) as context:
             cli.invoke(context)
     except click.exceptions.Exit as end:
         return end.exit_code
@@ -82,9 +85,9 @@ def _run(args: list[str]) -> int:
         click.echo(error.format_message(), err=True)
         return 2
     except click.UsageError as error:
-        words = error.ctx.command_path if error.ctx else "bikestab"
-        if words == "bikestab" and args and args[0] in COMMANDS:
-            words = f"bikestab {args[0]}"
+        words = error.ctx.command_path if error.ctx else program
+        if words == program and args and args[0] in COMMANDS:
+            words = f"{program} {args[0]}"
         return _tell(2, error.format_message(), f"see '{words} --help'")
     except click.ClickException as error:
         return _tell(2, error.format_message())

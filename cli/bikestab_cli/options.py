@@ -1,9 +1,11 @@
-"""Options that several commands share, and the words in which results are told."""
+"""Options that several commands share, and their mistakes."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
 
 F = TypeVar("F", bound=Callable[..., Any])
+Ends = tuple[float, float]
 DEFAULT_BICYCLE = "dikarev1981"
 MOST_VALUES = 1_000_000
 
@@ -62,9 +65,7 @@ class QuantityRange(Quantity):
 class QuantityEnds(Quantity):
     """START:STOP, or one number that is both."""
 
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, float]:
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Ends:
         if isinstance(value, tuple):
             return value
         parts = str(value).split(":")
@@ -77,7 +78,12 @@ class QuantityEnds(Quantity):
 ANGLE_VALUE, TRAIL_VALUE, SPEED_VALUE = (
     Quantity(name, units) for name, units in (("angle", ANGLE), ("number", PURE), ("speed", SPEED))
 )
-ANGLES, TRAILS = QuantityRange("angle", ANGLE), QuantityRange("number", PURE)
+ANGLES, TRAILS, SPEEDS = (
+    QuantityRange(name, units) for name, units in (("angle", ANGLE), ("number", PURE), ("speed", SPEED))
+)
+ANGLE_ENDS, TRAIL_ENDS, SPEED_ENDS = (
+    QuantityEnds(name, units) for name, units in (("angle", ANGLE), ("number", PURE), ("speed", SPEED))
+)
 
 
 def machine_options(function: F) -> F:
@@ -118,6 +124,12 @@ at_option = click.option(
     help="Which machine of a sweep, e.g. --at delta=1; once for each of its axes.",
 )  # fmt: skip
 
+tilt_option = click.option(
+    "--lam", type=ANGLE_VALUE, metavar="ANGLE", help="Tilt of the steering axis: 0.1 or 18deg."
+)
+trail_option = click.option(
+    "--sigma", type=TRAIL_VALUE, metavar="NUMBER", help="Trail divided by the wheelbase: 0.08."
+)
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 
 
@@ -138,23 +150,40 @@ def warn(bicycle: Bicycle) -> None:
         click.echo(f"warning: {bicycle.name}: {text}", err=True)
 
 
-def print_json(value: object) -> None:
-    """JSON on stdout; anything not finite has been turned into null or text before."""
-    import json
-
-    click.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
-
-
-def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Columns of text, aligned to the right."""
-    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
-    lines = ("  ".join(cell.rjust(w) for cell, w in zip(row, widths, strict=True)) for row in (head, *rows))
-    return "\n".join(line.rstrip() for line in lines)
+def check_files(*names: str | None) -> None:
+    """Refuse files that have no folder, and one asked for twice, before anything is computed."""
+    places = [Path(name).absolute() for name in names if name]
+    for name, place in zip(filter(None, names), places, strict=True):
+        if places.count(place) > 1:
+            raise click.UsageError(f"{name} is asked for twice", click.get_current_context())
+        if not place.parent.is_dir():
+            raise InputError("cannot be written (No such file or directory)", place=name)
 
 
-def design_columns(lam: float, sigma: float, wheelbase: float) -> list[str]:
-    """λ, head angle, σ and trail as they stand in every table."""
-    return [f"{lam:.6g}", f"{90 - math.degrees(lam):.3f}", f"{sigma:.6g}", f"{sigma * wheelbase:.4f}"]
+@contextmanager
+def told_as_options(**others: str) -> Iterator[None]:
+    """Tell of the library's mistakes in its arguments as of the options of these names, or of ``others``."""
+    try:
+        yield
+    except InputError as error:
+        if error.place or not error.key:
+            raise
+        name, hint = str(error.key[0]), error.hint
+        option = others.get(name, f"--{name}")
+        if hint.startswith("give one, for example "):
+            example = hint.rpartition(" ")[2]
+            problem = f"{error.problem}: give {option}, for example {option} {example}"
+            raise click.UsageError(problem, click.get_current_context()) from None
+        for argument, its_option in others.items():
+            hint = hint.replace(argument, its_option)
+        problem = f"{error.problem}; {hint}" if hint else error.problem
+        raise click.BadParameter(problem, param_hint=option) from None
 
 
-DESIGN_HEAD = ["lam [rad]", "head angle [°]", "sigma", "trail [m]"]
+@contextmanager
+def of_file(name: str) -> Iterator[None]:
+    """Tell of the library's mistakes, unless they have a place, as of ones in this file."""
+    try:
+        yield
+    except InputError as error:
+        raise error.at(name) from None

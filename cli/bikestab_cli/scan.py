@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import json_option, print_json
+from bikestab_cli.options import json_option, of_file
+from bikestab_cli.output import print_json
 from bikestab_cli.progress import progress
 
 if TYPE_CHECKING:
@@ -58,60 +59,60 @@ def command(
       bikestab scan configs/quick.yaml configs/meijaard2007.yaml --force --json
       bikestab scan configs/quick.yaml --jobs 2 --quiet
     """
-    from bikestab.config.file import load_config
-    from bikestab.errors import InputError
-    from bikestab.plot.pictures import draw_pictures
-    from bikestab.scanning.output import check_size, volume_path
-
     if jobs and scheduler:
         raise click.UsageError("--jobs is for this machine, --scheduler for a cluster; give one of them")
-    loaded: dict[Path, tuple[str, ScanConfig]] = {}
-    for name in configs:
-        config = load_config(name, overrides)
-        try:
-            check_size(config)
-        except InputError as error:
-            raise error.at(name) from None
-        path = volume_path(config).resolve()
-        if path in loaded:
-            problem = f"{config.output} is the output of {loaded[path][0]} too"
-            raise InputError(problem, key=("output",), place=name)
-        loaded[path] = name, config
+    loaded = _load(configs, overrides)
     done: list[dict[str, object]] = []
     try:
-        for name, config in loaded.values():
+        for name, config in loaded:
             for text in config.warnings:
                 click.echo(f"warning: {config.machine.name}: {text}", err=True)
             start = time.perf_counter()
-            result = _run(name, config, force, jobs, scheduler or "", quiet)
-            pictures = draw_pictures(config, result.path, partial(click.echo, err=True))
-            seconds = time.perf_counter() - start
+            with of_file(name):
+                result, pictures = _run(name, config, force, jobs, scheduler or "", quiet)
             done.append(_summary(name, config, result, pictures))
             if not as_json:
-                click.echo(_line(name, result, pictures, seconds))
+                click.echo(_line(name, result, pictures, time.perf_counter() - start))
     finally:
         if as_json and (done or not sys.exc_info()[0]):
             print_json(done)
 
 
+def _load(names: tuple[str, ...], overrides: tuple[str, ...]) -> list[tuple[str, ScanConfig]]:
+    """All configs, before the first is computed."""
+    from bikestab.config.file import load_config
+    from bikestab.errors import InputError
+    from bikestab.scanning.output import check_size, volume_path
+
+    loaded: dict[Path, tuple[str, ScanConfig]] = {}
+    for name in names:
+        with of_file(name):
+            config = load_config(name, overrides)
+            check_size(config)
+            path = volume_path(config).resolve()
+            if path in loaded:
+                raise InputError(f"{config.output} is the output of {loaded[path][0]} too", key=("output",))
+        loaded[path] = name, config
+    return list(loaded.values())
+
+
 def _run(
     name: str, config: ScanConfig, force: bool, jobs: int | None, scheduler: str, quiet: bool
-) -> ScanResult:
-    from bikestab.errors import InputError
+) -> tuple[ScanResult, list[Path]]:
+    from bikestab.plot.pictures import draw_pictures
     from bikestab.scanning.output import tiles_path
     from bikestab.scanning.run import run_scan
 
     try:
         with progress(name, quiet) as show:
-            return run_scan(config, force=force, jobs=jobs, scheduler=scheduler, progress=show)
-    except InputError as error:
-        raise error.at(name) from None
+            result = run_scan(config, force=force, jobs=jobs, scheduler=scheduler, progress=show)
     except KeyboardInterrupt:
         hint = ""
         with suppress(OSError):
             if tiles_path(config).stat().st_size:
                 hint = f"{name}: what is finished is kept; the same command goes on from there"
         raise KeyboardInterrupt(hint) from None
+    return result, draw_pictures(config, result.path, partial(click.echo, err=True))
 
 
 def _line(name: str, result: ScanResult, pictures: list[Path], seconds: float) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import click
-from bikestab_cli.options import print_json
+from bikestab_cli.output import print_json
 
 
 @click.command("schema")

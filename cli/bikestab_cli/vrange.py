@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import (
-    ANGLES,
-    DESIGN_HEAD,
-    TRAILS,
-    design_columns,
-    json_option,
-    load_bicycle,
-    machine_options,
-    print_json,
-    table,
-)
+from bikestab_cli.options import ANGLES, TRAILS, json_option, load_bicycle, machine_options, told_as_options
+from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, print_json, table
 
 if TYPE_CHECKING:
-    from bikestab.bicycle import Bicycle
+    from bikestab.model import Model
+    from bikestab.region.answers import Answer
+    from bikestab.region.nearest import Nearest
 
 
 @click.command("vrange")
@@ -35,7 +28,7 @@ def command(
     lam: list[float] | None,
     sigma: list[float] | None,
     bicycle_name: str,
-    model: str,
+    model: Model,
     delta: float | None,
     as_json: bool,
 ) -> None:
@@ -57,85 +50,24 @@ def command(
       bikestab vrange --bicycle meijaard2007 --lam 20deg --json
       bikestab vrange --lam 0.1 --sigma 0.08 --delta 1
     """
-    from bikestab.errors import InputError
-    from bikestab.limits import check_tilt, check_trail
+    from bikestab.region.answers import stable_speeds
 
     bicycle = load_bicycle(bicycle_name, delta)
-    lams = _given("lam", lam, bicycle.lam, bicycle)
-    sigmas = _given("sigma", sigma, bicycle.sigma, bicycle)
-    for name, check, values in (("--lam", check_tilt, lams), ("--sigma", check_trail, sigmas)):
-        for value in values:
-            try:
-                check(value, ())
-            except InputError as error:
-                raise click.BadParameter(f"{error.problem}; {error.hint}", param_hint=name) from None
-    with_nearest = as_json or len(lams) == len(sigmas) == 1  # a table has no room for it
-    results = _results(bicycle, lams, sigmas, model, with_nearest)
+    single = all(values is None or len(values) == 1 for values in (lam, sigma))
+    with told_as_options():  # a table has no room for what is nearest
+        answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=as_json or single)
     if as_json:
-        print_json({"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "results": results})
-    else:
-        click.echo(f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s\n")
-        click.echo(table([*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], _rows(results, bicycle.c)))
-        for result in results if len(results) == 1 else []:
-            if result["nearest"]:
-                click.echo("\n" + _advice(result["nearest"], bicycle.c))
+        print_json({"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "results": answers})
+        return
+    click.echo(heading(bicycle, model) + "\n")
+    click.echo(table([*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], _rows(answers, bicycle.c)))
+    if single and (nearest := answers[0]["nearest"]):
+        click.echo("\n" + _advice(nearest, bicycle.c))
 
 
-def _given(name: str, values: list[float] | None, own: float | None, bicycle: Bicycle) -> list[float]:
-    if values is None and own is None:
-        raise click.UsageError(
-            f"the bicycle {bicycle.name!r} has no {name} of its own: give --{name}, "
-            f"for example --{name} {'0.2' if name == 'lam' else '0.08'}",
-            click.get_current_context(),
-        )
-    return [own] if values is None else values  # type: ignore[list-item]  # one of the two is there
-
-
-def _results(
-    bicycle: Bicycle, lams: list[float], sigmas: list[float], model: Any, with_nearest: bool
-) -> list[dict[str, Any]]:
-    import numpy as np
-
-    from bikestab.model import characteristic_table
-    from bikestab.speeds import KINDS, intervals_of
-
-    found = intervals_of(characteristic_table(bicycle, np.array(lams)[:, None], sigmas, model=model))
-    results = []
-    for (i, j), number in np.ndenumerate(found.number):
-        intervals = [
-            {
-                "V1": float(found.V1[i, j, k]),
-                "V2": None if math.isinf(found.V2[i, j, k]) else float(found.V2[i, j, k]),
-                "lower": KINDS[found.lower[i, j, k]],
-                "upper": KINDS[found.upper[i, j, k]],
-            }
-            for k in range(number)
-        ]
-        results.append(
-            {
-                "lam": lams[i],
-                "sigma": sigmas[j],
-                "head_angle_deg": 90 - math.degrees(lams[i]),
-                "trail": sigmas[j] * bicycle.c,
-                "intervals": intervals,
-                "nearest": _nearest(bicycle, lams[i], sigmas[j], model)
-                if with_nearest and not number
-                else None,
-            }
-        )
-    return results
-
-
-def _nearest(bicycle: Bicycle, lam: float, sigma: float, model: Any) -> Any:
-    from bikestab.family import Family
-    from bikestab.region.nearest import nearest_stable
-
-    return nearest_stable(Family(bicycle, model), lam, sigma)
-
-
-def _rows(results: list[dict[str, Any]], wheelbase: float) -> list[list[str]]:
+def _rows(answers: list[Answer], wheelbase: float) -> list[list[str]]:
     rows = []
-    for result in results:
+    for result in answers:
         design = design_columns(result["lam"], result["sigma"], wheelbase)
         for interval in result["intervals"]:
             V2 = "unbounded" if interval["V2"] is None else f"{interval['V2']:.12f} ({interval['upper']})"
@@ -146,7 +78,7 @@ def _rows(results: list[dict[str, Any]], wheelbase: float) -> list[list[str]]:
     return rows
 
 
-def _advice(nearest: dict[str, Any], wheelbase: float) -> str:
+def _advice(nearest: Nearest, wheelbase: float) -> str:
     lines = []  # rounded to the stable side, so that what is printed can be typed in
     if nearest["sigma_min"] is not None:
         sigma = math.ceil(nearest["sigma_min"] * 1e6) / 1e6
@@ -155,7 +87,7 @@ def _advice(nearest: dict[str, Any], wheelbase: float) -> str:
         )
     elif nearest["lam_min"] is not None:
         lines.append("no larger σ up to 0.5 gives a stable speed at this λ")
-    if nearest["lam_min"] is not None:
+    if nearest["lam_min"] is not None and nearest["lam_max"] is not None:
         low, high = math.ceil(nearest["lam_min"] * 1e6) / 1e6, math.floor(nearest["lam_max"] * 1e6) / 1e6
         lines.append(
             f"at this σ there is one for λ = {low:.6f} ... {high:.6f} rad (head angle "

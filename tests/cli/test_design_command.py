@@ -148,7 +148,7 @@ def test_a_bicycle_without_own_design_and_one_outside_the_box(design, tmp_path):
         (("--V-max", "0"), "--V-max: 0 m/s is no cap for the speed"),
         (("-o", "picture"), "--output: 'picture' has no ending .png, .pdf or .svg"),
         (("-o", "a.xyz"), "--output: 'a.xyz' has no ending .png, .pdf or .svg"),
-        (("-o", "a.svg", "--csv", "a.svg"), "--csv: 'a.svg' is the picture too"),
+        (("-o", "a.svg", "--csv", "a.svg"), "a.svg is asked for twice"),
         (("-o", "d.png", "--sigma", "0.1"), "--sigma: a picture needs a range, not 0.1 alone"),
         (("--csv", "no/front.csv", "--lam", "0.2"), "no/front.csv: cannot be written"),
     ],

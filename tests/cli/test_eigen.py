@@ -173,11 +173,12 @@ def test_files_are_named_in_json(tmp_path):
         (["--sigma", "0.08"], "has no lam of its own: give --lam, for example --lam 0.2"),
         (["--lam", "0.2"], "has no sigma of its own"),
         (["--lam", "2", "--sigma", "0.08"], "does not meet the ground"),
-        ([*BENCHMARK, "--V", "-1:5:3"], "-1 m/s is negative"),
+        ([*BENCHMARK, "--V", "-1:5:3"], "-1 is a speed backwards"),
         ([*BENCHMARK, "--V", "0:5"], "neither a number nor START:STOP:NUM"),
         ([*BENCHMARK, "--V", "5", "-o", "x.png"], "a picture needs a range"),
         ([*BENCHMARK, "-o", "x"], "has no ending, such as .png"),
         ([*BENCHMARK, "--delta", "-1"], "is negative"),
+        ([*BENCHMARK, "-o", "a.png", "--csv", "a.png"], "a.png is asked for twice"),
         (["--bicycle", "nothing"], "there is no bicycle 'nothing'"),
     ],
 )

@@ -1,0 +1,56 @@
+"""The stable speeds of designs, and what would help those that have none, as records."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bikestab.bicycle import Bicycle
+from bikestab.model import Model
+from bikestab.records import Design, Interval, design_record, interval_records
+from bikestab.stability import design_of, stable_intervals
+
+if TYPE_CHECKING:
+    from bikestab.region.nearest import Nearest
+
+
+class Answer(Design):
+    """A design and its intervals of stable speeds.
+
+    ``nearest`` says what would help where there is none, and is None otherwise or where nobody asked.
+    """
+
+    intervals: list[Interval]
+    nearest: Nearest | None
+
+
+def stable_speeds(
+    bicycle: Bicycle,
+    lam: Sequence[float] | None = None,
+    sigma: Sequence[float] | None = None,
+    *,
+    model: Model = "refined",
+    nearest: bool = True,
+) -> list[Answer]:
+    """The stable speeds at every combination of tilts [rad] and trails, those of one tilt after another.
+
+    Without them the bicycle's own are taken. Raises InputError as ``stability.stable_intervals``.
+    """
+
+    def helps(lam: float, sigma: float) -> Nearest:
+        from bikestab.family import Family  # most answers need neither
+        from bikestab.region.nearest import nearest_stable
+
+        return nearest_stable(Family(bicycle, model), lam, sigma)
+
+    tilts, trails = (np.atleast_1d(values) for values in design_of(bicycle, lam, sigma))
+    found = stable_intervals(bicycle, tilts[:, np.newaxis], trails, model=model)
+    answers: list[Answer] = []
+    for i, j in np.ndindex(found.number.shape):
+        design = design_record(float(tilts[i]), float(trails[j]), bicycle.c)
+        intervals = interval_records(found, i, j)
+        help_ = helps(design["lam"], design["sigma"]) if nearest and not intervals else None
+        answers.append({**design, "intervals": intervals, "nearest": help_})
+    return answers

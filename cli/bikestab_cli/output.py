@@ -1,0 +1,43 @@
+"""How results are told: JSON, and columns of text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
+
+DESIGN_HEAD = ["lam [rad]", "head angle [°]", "sigma", "trail [m]"]
+
+
+def print_json(value: object) -> None:
+    """JSON on stdout; anything not finite has been turned into null or text before."""
+    import json
+
+    click.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Columns of text, aligned to the right."""
+    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
+    lines = ("  ".join(cell.rjust(w) for cell, w in zip(row, widths, strict=True)) for row in (head, *rows))
+    return "\n".join(line.rstrip() for line in lines)
+
+
+def design_columns(lam: float, sigma: float, wheelbase: float) -> list[str]:
+    """λ, head angle, σ and trail as they stand in every table."""
+    return [f"{lam:.6g}", f"{90 - math.degrees(lam):.3f}", f"{sigma:.6g}", f"{sigma * wheelbase:.4f}"]
+
+
+def heading(bicycle: Bicycle, model: str) -> str:
+    """What every table is of."""
+    return f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s"
+
+
+def count(number: int, what: str) -> str:
+    """``1 point``, ``2 points``."""
+    return f"{number} {what}{'' if number == 1 else 's'}"

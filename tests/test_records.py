@@ -1,0 +1,50 @@
+"""Records: what they hold is what JSON can hold, and what the arrays hold."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from bikestab.bicycle import Bicycle
+from bikestab.records import design_record, interval_records, modes_record
+from bikestab.speeds import KINDS
+from bikestab.stability import modes, stable_intervals
+
+PAPER = Bicycle.preset("dikarev1981")
+
+
+def test_intervals_of_each_cell():
+    lam = np.array([[0.1], [0.2], [0.04834835], [0.05]])
+    found = stable_intervals(PAPER, lam, [0.08, 0.15])
+    numbers = set()
+    for cell in np.ndindex(4, 2):
+        records = interval_records(found, *cell)
+        numbers.add(len(records))
+        assert json.loads(json.dumps(records, allow_nan=False)) == records
+        for k, record in enumerate(records):
+            assert record["V1"] == found.V1[cell][k]
+            assert (math.inf if record["V2"] is None else record["V2"]) == found.V2[cell][k]
+            assert record["lower"] == KINDS[found.lower[cell][k]]
+            assert record["upper"] == KINDS[found.upper[cell][k]]
+            assert (record["upper"] == "unbounded") == (record["V2"] is None)
+    assert numbers == {0, 1, 2}
+    assert interval_records(stable_intervals(PAPER, 0.2, 0.08)) == interval_records(found, 1, 0)
+
+
+def test_design():
+    record = design_record(math.radians(18), 0.1, 1.02)
+    assert record == {
+        "lam": math.radians(18), "sigma": 0.1, "head_angle_deg": pytest.approx(72), "trail": 0.1 * 1.02
+    }  # fmt: skip
+    arrays = design_record(np.radians([18.0, 20.0]), np.array([0.1, 0.2]), 1.02)
+    assert arrays["head_angle_deg"][0] == record["head_angle_deg"]
+
+
+def test_modes():
+    found = modes(PAPER, [0.0, 5.0], 0.2, 0.08)
+    record = modes_record(found)
+    assert json.loads(json.dumps(record, allow_nan=False)) == record
+    s = np.array(record["branches"][0]["re"]) + 1j * np.array(record["branches"][0]["im"])
+    np.testing.assert_array_equal(s, found.eigenvalues[0])
+    assert [meeting["V"] for meeting in record["coalescences"]] == found.coalescences.tolist()
