@@ -6,7 +6,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from bikestab.routh import CONDITIONS
-from bikestab.scanning.crosscheck import Agreement
+from bikestab.scanning.agreement import Agreement
+from bikestab.scanning.bracketing import Bracketing
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.sheets import Atlas
 from bikestab.scanning.spool import Spool
@@ -14,28 +15,34 @@ from bikestab.scanning.tile import Columns, keep_heap, parted
 from bikestab.scanning.writer import VolumeWriter, new_volume
 
 
-def assemble(plan: Plan, spool: Spool, path: Path) -> tuple[int, Agreement]:
-    """Write the volume from its tiles, all finished; the number of stable points, and what the check gave."""
+def assemble(plan: Plan, spool: Spool, path: Path) -> tuple[int, Agreement, Agreement]:
+    """Write the volume from its tiles, all finished.
+
+    Returns the number of stable points, and how far the conditions' signs and scipy agree with the exact
+    speeds. Raises ScanError where scipy does not.
+    """
     keep_heap()
     notes = spool.notes
     agreement, stable_points = Agreement(), 0
     for note in notes.values():
-        agreement = agreement.joined(Agreement(*note["agreement"]))
+        agreement = agreement.combined(Agreement(*note["agreement"]))
         stable_points += note["stable_points"]
 
     @lru_cache(maxsize=1)  # they are needed twice, but memory does not bear those of every machine
     def atlases(member: int) -> dict[str, Atlas]:
         return _atlases(plan, spool, member)
 
+    bracketing = Bracketing(plan.config.grid.values("V"), plan.points // plan.shape[-1])
     widths = [atlas.width for member in range(plan.members) for atlas in atlases(member).values()]
     with new_volume(path, plan) as writer:
         writer.create_columns(
             max(note["intervals"] for note in notes.values() if note["columns"]), max(widths)
         )
         for number in range(len(plan)):
-            _write(writer, plan, spool, number, atlases(plan.member(number)))
-        writer.finish(stable_points, agreement)
-    return stable_points, agreement
+            _write(writer, plan, spool, number, atlases(plan.member(number)), bracketing)
+        bracketed = bracketing.agreement()
+        writer.finish(stable_points, agreement, bracketed)
+    return stable_points, agreement, bracketed
 
 
 def _atlases(plan: Plan, spool: Spool, member: int) -> dict[str, Atlas]:
@@ -54,11 +61,15 @@ def _atlases(plan: Plan, spool: Spool, member: int) -> dict[str, Atlas]:
     return found
 
 
-def _write(writer: VolumeWriter, plan: Plan, spool: Spool, number: int, atlases: dict[str, Atlas]) -> None:
+def _write(
+    writer: VolumeWriter, plan: Plan, spool: Spool, number: int, atlases: dict[str, Atlas],
+    bracketing: Bracketing,
+) -> None:  # fmt: skip
     place, columns = plan.place(number), spool.notes[number]["columns"]
     writer.write_fields(place, plan[number].shape, parted(spool.read(number, slice(columns, None))))
     if columns:
         found = _columns(spool, number)
+        bracketing.add(plan.cell(number), plan[number], found.roots)
         surfaces = {
             name: atlas.sheets(plan.cell(number), found.roots[name], found.intervals)
             for name, atlas in atlases.items()

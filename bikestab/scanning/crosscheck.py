@@ -6,47 +6,16 @@ both sides of every root, which brackets it, and at speeds of the grid, which fi
 
 from __future__ import annotations
 
-from math import comb
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
-from bikestab.polynomials import taylor
-from bikestab.routh import CONDITIONS, condition, condition_polynomials, conditions, violated
+from bikestab.routh import CONDITIONS, condition, conditions, violated
+from bikestab.scanning.agreement import AGREEMENT, ZERO, Agreement, by_rounding, size_of_terms
 from bikestab.speeds import Critical
 
-AGREEMENT = 1e-10  # m/s, between this way and the exact one
 SAMPLE = 8  # speeds of the grid at which the signs are compared
-_ROUNDING = 16 * np.finfo(float).eps  # of a condition, relative to the sum of its terms' sizes
-_ZERO = 128 * np.finfo(float).eps  # below it a condition is no number: ``routh`` drops what is below half
 _FAR = 1e-3  # m/s; a difference above is called infinite
-
-
-class Agreement(NamedTuple):
-    """How far the conditions' own zeros are from the exact speeds.
-
-    ``largest`` [m/s] is over the roots that double precision fixes to AGREEMENT, and inf where one has no
-    zero near it or the signs on the grid are others; of the ``loose`` others, close to a fold,
-    ``largest_loose`` is the same. ``touching`` counts places that are neither: the condition is zero
-    there to rounding, and which sign it has, if it changes it at all, cannot be told.
-    """
-
-    roots: int = 0
-    largest: float = 0.0
-    loose: int = 0
-    largest_loose: float = 0.0
-    touching: int = 0
-
-    def joined(self, other: Agreement) -> Agreement:
-        return Agreement(
-            self.roots + other.roots,
-            max(self.largest, other.largest),
-            self.loose + other.loose,
-            max(self.largest_loose, other.largest_loose),
-            self.touching + other.touching,
-        )
 
 
 def check(
@@ -64,7 +33,7 @@ def check(
         gap = np.full((len(speeds) + 1, table.shape[-1]), np.inf)
         gap[1:-1] = np.where(np.isnan(d := np.diff(speeds, axis=0)), np.inf, d)
         for root, room in zip(speeds, np.minimum(gap[1:], gap[:-1]), strict=True):
-            found = found.joined(
+            found = found.combined(
                 _zeros(table, name, np.where((root > above) & (root <= V[-1]), root, np.nan), room)
             )
     return found
@@ -83,15 +52,14 @@ def _zeros(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
     largest = float((step * np.abs((below + above) / (below - above))).max(initial=0))
     poor = np.flatnonzero((root > 0) & ~between)
     found = Agreement(number, largest)
-    return found.joined(_poor(table[..., poor], name, root[poor], room[poor])) if len(poor) else found
+    return found.combined(_poor(table[..., poor], name, root[poor], room[poor])) if len(poor) else found
 
 
 def _poor(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
     """What is the matter with roots where the condition has one sign on both sides."""
-    size, series = _size(table, name, root), taylor(condition_polynomials(table)[name], root)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        sharp = _ROUNDING * size / np.abs(series[1]) < np.minimum(AGREEMENT, 0.5 * np.minimum(root, room))
-        reach = np.where(sharp, _FAR, _reach(series, _ZERO * size))
+    moved, reach = by_rounding(table, name, root)
+    sharp = moved < np.minimum(AGREEMENT, 0.5 * np.minimum(root, room))
+    reach = np.where(sharp, _FAR, reach)
     difference = np.full(len(root), np.inf)
     step = np.minimum(AGREEMENT, 0.5 * root)
     while np.any(step < reach):
@@ -101,7 +69,7 @@ def _poor(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
         difference[zero] = step[zero]
     value = condition(table, name, root)
     loose = ~sharp & np.isfinite(difference)
-    touching = ~sharp & ~loose & (np.abs(value) <= _ZERO * size)
+    touching = ~sharp & ~loose & (np.abs(value) <= ZERO * size_of_terms(table, name, root))
     return Agreement(
         0,
         float(difference[~(loose | touching)].max(initial=0)),
@@ -122,25 +90,8 @@ def _signs(table: Floats, mask: NDArray[np.uint8], V: Floats) -> Agreement:
     other = violated(values) ^ mask
     wrong, touching = 0, 0
     for bit, name in enumerate(CONDITIONS):
-        zero = np.abs(getattr(values, name)) <= _ZERO * _size(table, name, V)
+        zero = np.abs(getattr(values, name)) <= ZERO * size_of_terms(table, name, V)
         differs = (other >> bit) & 1 == 1
         wrong += int(np.count_nonzero(differs & ~zero))
         touching += int(np.count_nonzero(differs & zero))
     return Agreement(0, np.inf if wrong else 0.0, touching=touching)
-
-
-def _size(table: Floats, name: str, V: Floats) -> Floats:
-    """The sum of the sizes of a condition's terms."""
-    a = conditions(np.abs(table), V)
-    return getattr(a, name) if name != "hurwitz3" else a.p1 * (a.p2 * a.p3 + a.p4 * a.p1) + a.p0 * a.p3**2
-
-
-def _reach(series: Floats, zero: Floats) -> Floats:
-    """How far from V a root may be of a polynomial whose value there is up to ``zero``.
-
-    The root nearest to V in the complex plane is never farther: the k-th coefficient over the value is
-    a sum of binom(n, k) products of k reciprocal roots.
-    """
-    n = len(series) - 1
-    bounds = [(comb(n, k) * zero / np.abs(series[k])) ** (1 / k) for k in range(1, n + 1)]
-    return np.fmin.reduce(bounds)

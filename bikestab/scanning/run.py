@@ -10,9 +10,9 @@ from pathlib import Path
 
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import InputError
+from bikestab.scanning.agreement import Agreement
 from bikestab.scanning.assemble import assemble
 from bikestab.scanning.cluster import on_cluster, versions
-from bikestab.scanning.crosscheck import Agreement
 from bikestab.scanning.output import (
     check_size,
     make_folder,
@@ -33,13 +33,18 @@ Progress = Callable[[int, int], None]  # called with the points finished so far,
 
 @dataclass(frozen=True)
 class ScanResult:
-    """What a scan did. ``computed`` is False where the volume was there already."""
+    """What a scan did. ``computed`` is False where the volume was there already.
+
+    ``agreement`` tells how far the exact speeds agree with the conditions' signs beside them, ``bracketed``
+    how far with the zeros that scipy finds between speeds of the grid.
+    """
 
     path: Path
     computed: bool
     points: int
     stable_points: int
     agreement: Agreement
+    bracketed: Agreement
 
 
 def run_scan(
@@ -74,12 +79,13 @@ def run_scan(
             if force or not (result := _kept(plan)):  # another scan may just have written it
                 try:
                     _compute(plan, spool, jobs, scheduler, progress)
-                    stable_points, agreement = assemble(plan, spool, volume_path(config))
+                    result = ScanResult(
+                        volume_path(config), True, plan.points, *assemble(plan, spool, volume_path(config))
+                    )
                 except BaseException:
                     if not spool.notes:
                         spool.remove()
                     raise
-                result = ScanResult(volume_path(config), True, plan.points, stable_points, agreement)
             spool.remove()
             return result
     except OSError as error:
@@ -90,7 +96,7 @@ def _kept(plan: Plan) -> ScanResult | None:
     stable_points = own_volume(plan)
     if stable_points is None:
         return None
-    return ScanResult(volume_path(plan.config), False, plan.points, stable_points, Agreement())
+    return ScanResult(volume_path(plan.config), False, plan.points, stable_points, Agreement(), Agreement())
 
 
 def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progress: Progress) -> None:

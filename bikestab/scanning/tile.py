@@ -17,8 +17,9 @@ from bikestab.errors import ScanError
 from bikestab.fields import FIELDS, Points
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import CONDITIONS
+from bikestab.scanning.agreement import AGREEMENT, Agreement
 from bikestab.scanning.chunks import packed
-from bikestab.scanning.crosscheck import AGREEMENT, Agreement, check
+from bikestab.scanning.crosscheck import check
 from bikestab.scanning.ensemble import ensemble_statistics
 from bikestab.scanning.sheets import Roots, most_roots
 from bikestab.scanning.signs import violated_between

@@ -19,8 +19,8 @@ from bikestab.fields import AXES, COORDINATES, FIELDS, Field
 from bikestab.files import beside
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
+from bikestab.scanning.agreement import Agreement
 from bikestab.scanning.chunks import packed, places
-from bikestab.scanning.crosscheck import Agreement
 from bikestab.scanning.labels import add_vtk_view, describe, file_attributes, flags, masks, words
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.sheets import Sheets
@@ -154,11 +154,14 @@ class VolumeWriter:
                 self._data[name].id.write_direct_chunk(place[:-1], chunk)
         self._sink.check()
 
-    def finish(self, stable_points: int, agreement: Agreement) -> None:
+    def finish(self, stable_points: int, agreement: Agreement, bracketed: Agreement) -> None:
         """Note the totals, link the fields for ParaView and mark the file complete."""
         group = self.file["boundary"]
         group.attrs["largest_difference"] = agreement.largest
         group.attrs["largest_difference_units"] = np.bytes_("m s-1")
+        group.attrs["bracketed_zeros"] = bracketed.roots
+        group.attrs["largest_bracketed_difference"] = bracketed.largest
+        group.attrs["largest_bracketed_difference_units"] = np.bytes_("m s-1")
         if not self._lead and all(uniform(self.file[name][()]) for name in AXES):
             add_vtk_view(self.file, self.plan.fields)
         self.file.attrs["stable_points"] = stable_points

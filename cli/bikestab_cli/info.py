@@ -39,10 +39,10 @@ def command(volume: str, show_config: bool, as_json: bool) -> None:
     width = max(map(len, summary)) + 2
     for key, value in summary.items():
         shown = ", ".join(value) if isinstance(value, list) else value
-        if key == "largest_boundary_difference":
-            shown = f"{value:.2g} m/s"
-        if (key == "ensemble_samples" and not value) or key in sweep:
+        if value is None or (key == "ensemble_samples" and not value) or key in sweep:
             continue
+        if key.endswith("_difference"):
+            shown = f"{value:.2g} m/s"
         click.echo(f"{key.replace('_', ' '):<{width}}{shown}")
     for name, values in sweep.items():
         click.echo(f"{name:<{width}}{', '.join(f'{value:g}' for value in values)} (sweep)")
@@ -64,7 +64,8 @@ def _summary(volume: Any) -> dict[str, Any]:
     file = volume.file
     number = np.count_nonzero(volume.read("upper"), axis=-1)
     points = int(np.prod([len(file[name]) for name in (*volume.swept, *AXES)]))
-    attributes = file.attrs
+    attributes, checks = file.attrs, dict(file["boundary"].attrs)
+    bracketed = checks.get("largest_bracketed_difference")  # earlier volumes have none
     return {
         "volume": str(volume.path),
         "title": volume.text("title"),
@@ -79,7 +80,8 @@ def _summary(volume: Any) -> dict[str, Any]:
         "designs_with_a_stable_speed": int(np.count_nonzero(number)),
         "designs_with_several_intervals": int(np.count_nonzero(number > 1)),
         "designs_stable_without_upper_limit": int(np.count_nonzero(np.isinf(volume.read("V2")).any(axis=-1))),
-        "largest_boundary_difference": float(file["boundary"].attrs["largest_difference"]),
+        "largest_boundary_difference": float(checks["largest_difference"]),
+        "largest_bracketed_difference": None if bracketed is None else float(bracketed),
         "bikestab_version": volume.text("bikestab_version"),
         "config_sha256": volume.text("config_sha256"),
         "sweep": {name: values.tolist() for name, values in volume.swept.items()},

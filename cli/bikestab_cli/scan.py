@@ -128,6 +128,10 @@ def _line(name: str, result: ScanResult, pictures: list[Path], seconds: float) -
         agree += f" ({found.loose} close to a fold to {found.largest_loose:.1e})"
     if found.touching:
         agree += f"; at {found.touching} of them a condition only touches zero, which is no exact speed"
+    scipy = result.bracketed
+    agree += f"; {scipy.roots} zeros that scipy finds between speeds of the grid to {scipy.largest:.1e} m/s"
+    if scipy.loose:
+        agree += f" ({scipy.loose} close to a fold to {scipy.largest_loose:.1e})"
     return f"{name}: {result.path}{drawn}: {share}; {agree}; {seconds:.1f} s"
 
 
@@ -141,5 +145,7 @@ def _summary(name: str, config: ScanConfig, result: ScanResult, pictures: list[P
         "points": result.points,
         "stable_points": result.stable_points,
         "largest_boundary_difference": result.agreement.largest if result.computed else None,
+        "bracketed_zeros": result.bracketed.roots if result.computed else None,
+        "largest_bracketed_difference": result.bracketed.largest if result.computed else None,
         "warnings": config.warnings,
     }

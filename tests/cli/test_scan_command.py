@@ -71,13 +71,15 @@ def test_json(scan):
     first, second = json.loads(out)
     assert list(first) == [
         "config", "bicycle", "volume", "pictures", "computed", "points", "stable_points",
-        "largest_boundary_difference", "warnings",
+        "largest_boundary_difference", "bracketed_zeros", "largest_bracketed_difference", "warnings",
     ]  # fmt: skip
     assert (first["config"], first["volume"], first["points"]) == ("a.yaml", "out/a/volume.h5", 462)
     assert first["pictures"] == ["out/a/region.png", "out/a/slice_lam_0.2.png"]
     assert second["pictures"] == ["out/b/region.png"]
     assert first["computed"] is True
     assert 0 < first["largest_boundary_difference"] < 1e-10
+    assert first["bracketed_zeros"] > 100
+    assert 0 < first["largest_bracketed_difference"] < 1e-10
     assert len(first["warnings"]) == 2
     with h5py.File("out/a/volume.h5") as file:
         assert first["stable_points"] == file.attrs["stable_points"] > 0

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition, condition_polynomials, conditions
-from bikestab.scanning.crosscheck import AGREEMENT, Agreement, check
+from bikestab.scanning.agreement import AGREEMENT, Agreement
+from bikestab.scanning.crosscheck import check
 from bikestab.scanning.signs import violated_between
 from bikestab.speeds import critical, critical_speeds, intervals_of
 from tests.onecell import table_of
@@ -248,10 +249,10 @@ def test_what_is_partly_no_number_is_a_disagreement():
 # --- sums
 
 
-def test_joined_agreements_keep_the_worst():
+def test_combined_agreements_keep_the_worst():
     a, b = Agreement(3, 1e-14, 1, 1e-9, 2), Agreement(4, 1e-13, 0, 0.0, 1)
-    assert a.joined(b) == b.joined(a) == (7, 1e-13, 1, 1e-9, 3)
-    assert Agreement().joined(a) == a
+    assert a.combined(b) == b.combined(a) == (7, 1e-13, 1, 1e-9, 3)
+    assert Agreement().combined(a) == a
 
 
 def test_polynomials_and_conditions_are_the_same_thing():
@@ -272,7 +273,7 @@ def test_parts_of_the_speeds_see_each_root_once():
             check(table, exact, violated_between(table, exact, V[a:b]), V[a:b], float(V[a - 1]) if a else 0.0)
             for a, b in pairwise(borders)
         ]
-        total = reduce(Agreement.joined, parts)
+        total = reduce(Agreement.combined, parts)
         assert total[:4] == whole[:4]
 
 

@@ -14,9 +14,9 @@ from bikestab.errors import InputError, ScanError
 from bikestab.fields import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scanning import plan
+from bikestab.scanning import bracketing, plan
 from bikestab.scanning import tile as tiles
-from bikestab.scanning.crosscheck import AGREEMENT
+from bikestab.scanning.agreement import AGREEMENT
 from bikestab.scanning.output import MOST_VALUES, check_size
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.run import run_scan
@@ -74,6 +74,7 @@ def test_the_size_of_the_tiles_leaves_no_trace(more, monkeypatch):
             for name, data in expected.items():
                 assert file["boundary"][name][()].tobytes() == data
         assert result.agreement[:4] == whole.agreement[:4]
+        assert result.bracketed == whole.bracketed
         assert result.stable_points == whole.stable_points
 
 
@@ -101,6 +102,19 @@ def test_the_agreement_is_reported():
         assert file["boundary"].attrs["largest_difference"] == result.agreement.largest
         seen = sum(np.count_nonzero(file[f"boundary/{name}"][()] <= 15) for name in CONDITIONS)
         assert result.agreement.roots == seen > 500
+        assert 500 < result.bracketed.roots <= seen
+        assert file["boundary"].attrs["bracketed_zeros"] == result.bracketed.roots
+        assert file["boundary"].attrs["largest_bracketed_difference"] == result.bracketed.largest <= AGREEMENT
+
+
+def test_a_witness_that_disagrees_is_an_error(monkeypatch):
+    """The tiles are kept, and no volume gets its name."""
+    right = bracketing.zeros
+    monkeypatch.setattr(bracketing, "zeros", lambda *args: right(*args) + 1e-9)
+    with pytest.raises(ScanError, match=r"that scipy finds .*please report this with the config"):
+        run_scan(config_of((8, 8, 150)))
+    assert files() == ["out/volume.h5.tiles"]
+    monkeypatch.undo()
 
 
 @pytest.mark.parametrize(
