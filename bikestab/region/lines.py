@@ -66,14 +66,16 @@ def stable_ranges(
     *,
     x: ArrayLike | None = None,
     y: ArrayLike | None = None,
+    among: float | None = None,
 ) -> list[list[tuple[float, float]]]:
     """For each line the ranges of the other parameter, within low … high, with a stable speed.
 
     Give ``x`` for ranges of y, or ``y`` for ranges of x. The ends themselves are designs with a stable
-    speed, and designs that have none are next to them; or they are low and high.
+    speed, and designs that have none are next to them; or they are low and high. The design ``among``
+    them is looked at in any case.
     """
     line = Line(family, x, y)
-    found = sampled(line, low, high)
+    found = sampled(line, low, high, [low, high] if among is None else [low, high, among])
     return _runs(found, found.structure > 0, len(line.fixed))
 
 
@@ -91,7 +93,7 @@ def crossings(line: Line, low: float, high: float) -> Floats:
 
     Both ends are included; lines with fewer changes than others repeat ``high``.
     """
-    found = sampled(line, low, high)
+    found = sampled(line, low, high, [low, high])
     change = _changes(found)
     row = found.line[change]
     count = np.bincount(row, minlength=len(line.fixed))
@@ -102,8 +104,11 @@ def crossings(line: Line, low: float, high: float) -> Floats:
     return cuts
 
 
-def sampled(line: Line, low: float, high: float) -> Samples:
-    """Designs from low to high on each line, among which every change of the stable intervals is enclosed."""
+def sampled(line: Line, low: float, high: float, given: list[float]) -> Samples:
+    """Designs from low to high on each line, among which every change of the stable intervals is enclosed.
+
+    Those ``given`` are among them.
+    """
     ends = np.linspace(low, high, int(np.clip(np.ceil((high - low) / _PIECE), *_PIECES)) + 1)
     middle, half = 0.5 * (ends[1:] + ends[:-1]), 0.5 * (ends[1:] - ends[:-1])
     lines = len(line.fixed)
@@ -111,10 +116,10 @@ def sampled(line: Line, low: float, high: float) -> Samples:
     values = np.broadcast_to(values, (lines, *values.shape))
     row, zero = _zeros(in_units(line.table(values)), values, half)
     beside = zero[:, np.newaxis] + np.append(0.0, [-_BESIDE, _BESIDE]) * half[0]
-    both = np.repeat([low, high], lines)
     each = np.arange(lines)
-    where = np.concatenate([values.ravel(), beside.ravel(), both])
-    which = np.concatenate([each.repeat(values[0].size), row.repeat(beside.shape[1]), each, each])
+    where = np.concatenate([values.ravel(), beside.ravel(), np.repeat(given, lines)])
+    parts = [each.repeat(values[0].size), row.repeat(beside.shape[1]), np.tile(each, len(given))]
+    which = np.concatenate(parts)
     inside = (where >= low) & (where <= high)
     which, where = which[inside], where[inside]
     found = _ordered(which, where, structure(line.at(which, where)))

@@ -13,20 +13,23 @@ from bikestab.region.lines import stable_ranges
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
 
-LAM_RANGE, SIGMA_RANGE = (0.0, 0.6), (0.0, 0.5)  # rad, 1: what is searched
+LAM_RANGE, SIGMA_RANGE = (-0.2, 0.6), (-0.5, 0.5)  # rad, 1: what is searched
 V_MAX = 50.0  # m/s, up to which the smallest growth rate is searched
+_DECIMALS = 6, 17  # fewest and most of a rounded number
 
 
 class Nearest(TypedDict):
     """What would help; None where nothing in the searched ranges does.
 
-    ``sigma_min`` is the smallest larger σ at this λ with a stable speed; ``lam_min`` … ``lam_max`` the
-    nearest range of λ at this σ with one: points of the exact skeleton, or ends of what is searched.
+    ``sigma_min`` and ``sigma_max`` are the nearest larger and the nearest smaller σ at this λ with a stable
+    speed; ``lam_min`` … ``lam_max`` the nearest range of λ at this σ with one: each has a stable speed
+    itself, and next to it is one that has none, or the end of what is searched (LAM_RANGE, SIGMA_RANGE).
     ``V`` [m/s] is the speed with the smallest growth rate [s⁻¹] up to V_MAX, None where an
     eigenvalue is infinite (p4 = 0).
     """
 
     sigma_min: float | None
+    sigma_max: float | None
     lam_min: float | None
     lam_max: float | None
     V: float | None
@@ -34,36 +37,37 @@ class Nearest(TypedDict):
 
 
 def nearest_stable(family: Family, lam: float, sigma: float) -> Nearest:
-    """What is nearest to stability around a design (λ [rad], σ [1]) that has no stable speed."""
-    low, high = (max(sigma, end) for end in SIGMA_RANGE)
-    sigmas = stable_ranges(family, low, high, x=lam)[0] if low < high else []
-    lams = stable_ranges(family, *LAM_RANGE, y=sigma)[0]
+    """What is nearest to stability around a design (λ [rad], σ [1]) that has no stable speed.
+
+    ``family`` is one over lam and sigma.
+    """
+    (sigmas,) = stable_ranges(family, *SIGMA_RANGE, x=lam, among=sigma)
+    (lams,) = stable_ranges(family, *LAM_RANGE, y=sigma, among=lam)
     close = min(lams, key=lambda ends: min(abs(end - lam) for end in ends), default=None)
-
-    def at_sigma(values: Floats) -> Floats:
-        return family.table(lam, values)
-
-    def at_lam(values: Floats) -> Floats:
-        return family.table(values, sigma)
-
     table = family.table(lam, sigma)
     V, growth = _slowest(lambda V: growth_rate_of(table, V))
     finite = bool(np.isfinite(growth))
     return Nearest(
-        sigma_min=_inside(at_sigma, *sigmas[0]) if sigmas else None,
-        lam_min=_inside(at_lam, *close) if close else None,
-        lam_max=_inside(at_lam, *close[::-1]) if close else None,
+        sigma_min=min((start for start, _ in sigmas if start > sigma), default=None),
+        sigma_max=max((stop for _, stop in sigmas if stop < sigma), default=None),
+        lam_min=close[0] if close else None,
+        lam_max=close[1] if close else None,
         V=V if finite else None,
         growth_rate=growth if finite else None,
     )
 
 
-def _inside(table: Callable[[Floats], Floats], end: float, other: float) -> float:
-    """The end of a stable range moved by rounding's share, so that it has a stable speed itself."""
-    steps = np.concatenate([[0.0], 2.0 ** np.arange(-54, -34)]) * max(abs(end), 1e-3)
-    values = end + np.copysign(steps, other - end)
-    some = intervals_of(table(values)).number > 0
-    return float(values[np.argmax(some)])
+def rounded(table: Callable[[float], Floats], end: float, way: int) -> str:
+    """An end of a stable range rounded upwards (``way`` = 1) or downwards (−1) to few decimals.
+
+    To so many that what is written still has a stable speed, and can be typed in.
+    """
+    for decimals in range(*_DECIMALS):
+        scale = 10.0**decimals
+        text = f"{way * np.ceil(way * end * scale) / scale + 0.0:.{decimals}f}"  # no minus before zero
+        if intervals_of(table(float(text))).number > 0:
+            return text
+    return repr(end)
 
 
 def _slowest(growth: Callable[[Floats], Floats]) -> tuple[float, float]:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.options import ANGLES, TRAILS, json_option, load_bicycle, machine_options, told_as_options
 from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, print_json, table
 
 if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
     from bikestab.model import Model
     from bikestab.region.answers import Answer
-    from bikestab.region.nearest import Nearest
 
 
 @click.command("vrange")
@@ -38,9 +38,9 @@ def command(
     (a slow fall starts), rest (V = 0) or unbounded. Without --lam or --sigma the bicycle's own are
     taken. A range START:STOP:NUM gives a table.
 
-    Where there is no stable speed the answer says what would help: the smallest larger σ and the nearest λ
-    that give one (searched over 0 ≤ λ ≤ 0.6 rad and 0 ≤ σ ≤ 0.5), and the speed up to 50 m/s at which
-    the motion is least unstable.
+    Where there is no stable speed the answer says what would help: the nearest larger and smaller σ and the
+    nearest λ that give one (searched over −0.2 ≤ λ ≤ 0.6 rad and −0.5 ≤ σ ≤ 0.5), and the speed up to
+    50 m/s at which the motion is least unstable.
 
     \b
     Examples:
@@ -61,8 +61,8 @@ def command(
         return
     click.echo(heading(bicycle, model) + "\n")
     click.echo(table([*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], _rows(answers, bicycle.c)))
-    if single and (nearest := answers[0]["nearest"]):
-        click.echo("\n" + _advice(nearest, bicycle.c))
+    if single and answers[0]["nearest"]:
+        click.echo("\n" + _advice(answers[0], bicycle, model))
 
 
 def _rows(answers: list[Answer], wheelbase: float) -> list[list[str]]:
@@ -78,28 +78,40 @@ def _rows(answers: list[Answer], wheelbase: float) -> list[list[str]]:
     return rows
 
 
-def _advice(nearest: Nearest, wheelbase: float) -> str:
-    lines = []  # rounded to the stable side, so that what is printed can be typed in
-    if nearest["sigma_min"] is not None:
-        sigma = math.ceil(nearest["sigma_min"] * 1e6) / 1e6
-        lines.append(
-            f"at this λ a stable speed first appears at σ = {sigma:.6f} (trail {sigma * wheelbase:.4f} m)"
-        )
-    elif nearest["lam_min"] is not None:
-        lines.append("no larger σ up to 0.5 gives a stable speed at this λ")
-    if nearest["lam_min"] is not None and nearest["lam_max"] is not None:
-        low, high = math.ceil(nearest["lam_min"] * 1e6) / 1e6, math.floor(nearest["lam_max"] * 1e6) / 1e6
-        lines.append(
-            f"at this σ there is one for λ = {low:.6f} ... {high:.6f} rad (head angle "
-            f"{90 - math.degrees(low):.2f} ... {90 - math.degrees(high):.2f}°), of 0 ... 0.6 rad searched"
-        )
-    if not lines:
-        lines.append(
-            "no larger σ up to 0.5 at this λ, and no λ from 0 to 0.6 rad at this σ, gives a stable speed"
-        )
+def _advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
+    """What would help, and what was searched for it; designs are rounded so that they can be typed in."""
+    from bikestab.family import Family
+    from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, rounded
+
+    family = Family(bicycle, model)
+    nearest: Any = answer["nearest"]  # read by computed keys
+    lam, sigma = answer["lam"], answer["sigma"]
+    trails = []
+    for key, way, side in (("sigma_min", 1, "above"), ("sigma_max", -1, "below")):
+        if nearest[key] is None:
+            trails.append(f"none {side}")
+        else:
+            text = rounded(lambda value: family.table(lam, value), nearest[key], way)
+            trails.append(f"σ = {text} {side} (trail {float(text) * bicycle.c:.4f} m)")
+    angles = "none"
+    if nearest["lam_min"] is not None:
+        ends = [
+            rounded(lambda value: family.table(value, sigma), nearest[key], way)
+            for key, way in (("lam_min", 1), ("lam_max", -1))
+        ]
+        angles = "λ = {} ... {} rad".format(*ends)
+        angles += " (head angle {:.2f} ... {:.2f}°)".format(*(90 - math.degrees(float(end)) for end in ends))
+    lines = [
+        f"nearest stable speed at this λ: {', '.join(trails)}; searched σ = {_span(SIGMA_RANGE)}",
+        f"nearest stable speed at this σ: {angles}; searched λ = {_span(LAM_RANGE)} rad",
+    ]
     if nearest["V"] is not None:
         lines.append(
-            f"least unstable at {nearest['V']:.3f} m/s of 0 ... 50 m/s searched, "
+            f"least unstable at {nearest['V']:.3f} m/s of 0 ... {V_MAX:g} m/s searched, "
             f"where it grows at {nearest['growth_rate']:.4g} 1/s"
         )
     return "\n".join(lines)
+
+
+def _span(ends: tuple[float, float]) -> str:
+    return f"{ends[0]:g} ... {ends[1]:g}"

@@ -93,7 +93,9 @@ def test_two_intervals_of_one_design(vrange):
 def test_no_stable_speed(vrange):
     (result,) = results(vrange, "--lam", "0.1", "--sigma", "0.08")["results"]
     assert result["intervals"] == []
-    assert list(result["nearest"]) == ["sigma_min", "lam_min", "lam_max", "V", "growth_rate"]
+    assert list(result["nearest"]) == [
+        "sigma_min", "sigma_max", "lam_min", "lam_max", "V", "growth_rate",
+    ]  # fmt: skip
     assert result["nearest"] == nearest_stable(Family(Bicycle.preset("dikarev1981")), 0.1, 0.08)
 
 
@@ -101,11 +103,21 @@ def test_advice_can_be_typed_in(vrange):
     """What is printed as a stable trail and stable tilts is stable, though it is rounded."""
     _, out, _ = vrange("--lam", "0.1", "--sigma", "0.08")
     assert "no stable speed" in out
-    sigma = out.split("appears at σ = ")[1].split()[0]
-    low, high = out.split("for λ = ")[1].split(" rad")[0].split(" ... ")
+    sigma = out.split("at this λ: σ = ")[1].split()[0]
+    low, high = out.split("at this σ: λ = ")[1].split(" rad")[0].split(" ... ")
     for lam, trail in (("0.1", sigma), (low, "0.08"), (high, "0.08")):
         (result,) = results(vrange, "--lam", lam, "--sigma", trail)["results"]
         assert result["intervals"], (lam, trail)
+
+
+def test_advice_says_what_was_searched_and_looks_both_ways(vrange):
+    _, out, _ = vrange("--bicycle", "meijaard2007", "--sigma", "-0.01")
+    trails, tilts, least = out.splitlines()[-3:]
+    assert trails.startswith("nearest stable speed at this λ: σ = -0.00")
+    assert trails.endswith(", none below; searched σ = -0.5 ... 0.5")
+    assert tilts.endswith("; searched λ = -0.2 ... 0.6 rad")
+    assert least.startswith("least unstable at ")
+    assert " of 0 ... 50 m/s searched" in least
 
 
 def test_ranges(vrange):

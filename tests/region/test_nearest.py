@@ -6,7 +6,7 @@ import pytest
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import characteristic_table
-from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, nearest_stable
+from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, nearest_stable, rounded
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
 
@@ -24,8 +24,9 @@ def found():
 
 
 def test_keys_and_their_order(found):
-    assert list(found) == ["sigma_min", "lam_min", "lam_max", "V", "growth_rate"]
-    assert all(type(value) is float for value in found.values())
+    assert list(found) == ["sigma_min", "sigma_max", "lam_min", "lam_max", "V", "growth_rate"]
+    assert found["sigma_max"] is None
+    assert all(type(value) is float for key, value in found.items() if key != "sigma_max")
 
 
 def test_sigma_min_separates(found):
@@ -71,7 +72,7 @@ def test_the_nearer_of_two_ranges_of_lam():
         near = nearest_stable(Family(DIKAREV), float(lams[index]), sigma)
         assert (near["lam_max"] < lams[index]) == (side == "lower")
         ends = np.array([near["lam_min"], near["lam_max"]])
-        assert np.abs(ends - lams[index]).min() < 2 * lams[1]
+        assert np.abs(ends - lams[index]).min() < 2 * (lams[1] - lams[0])
 
 
 def test_nothing_helps():
@@ -84,20 +85,53 @@ def test_nothing_helps():
     assert not stable(bicycle, 0.0, sigma, "unrefined").any()
     assert not stable(bicycle, lam, 0.0, "unrefined").any()
     near = nearest_stable(Family(bicycle, "unrefined"), 0.0, 0.0)
-    assert (near["sigma_min"], near["lam_min"], near["lam_max"]) == (None, None, None)
+    assert [near[key] for key in ("sigma_min", "sigma_max", "lam_min", "lam_max")] == [None] * 4
     assert near["growth_rate"] > 0
 
 
-def test_only_larger_trails_are_searched():
+def test_smaller_trails():
     """The benchmark bicycle at λ = 0.165 is stable around σ = 0.15, but no longer at 0.35."""
-    assert stable(MEIJAARD, 0.165, 0.15)
-    assert not stable(MEIJAARD, 0.165, 0.35)
-    assert nearest_stable(Family(MEIJAARD), 0.165, 0.35)["sigma_min"] is None
+    near = nearest_stable(Family(MEIJAARD), 0.165, 0.35)
+    assert near["sigma_min"] is None
+    assert 0.15 < near["sigma_max"] < 0.35
+    assert stable(MEIJAARD, 0.165, near["sigma_max"])
+    assert not stable(MEIJAARD, 0.165, np.linspace(near["sigma_max"] + 1e-12, 0.35, 5001)).any()
 
 
 def test_beyond_the_searched_trails():
-    assert not stable(MEIJAARD, 0.0, 0.6)
-    assert nearest_stable(Family(MEIJAARD), 0.0, 0.6)["sigma_min"] is None
+    near = nearest_stable(Family(MEIJAARD), 0.165, 0.6)
+    assert near["sigma_min"] is None
+    assert near["sigma_max"] == nearest_stable(Family(MEIJAARD), 0.165, 0.35)["sigma_max"]
+    beside = nearest_stable(Family(MEIJAARD), 0.3, -0.6)
+    assert (beside["sigma_min"] >= SIGMA_RANGE[0], beside["sigma_max"]) == (True, None)
+
+
+def test_negative_trails():
+    """The benchmark bicycle at σ = −0.005 is stable from 2.787 to 2.860 m/s; at −0.01 it is not."""
+    near = nearest_stable(Family(MEIJAARD), MEIJAARD.lam, -0.01)
+    V1, V2, _, _ = intervals_of(characteristic_table(MEIJAARD, MEIJAARD.lam, -0.005))
+    np.testing.assert_allclose([V1[0], V2[0]], [2.786837876101, 2.860242007369], rtol=1e-12)
+    assert -0.01 < near["sigma_min"] < -0.005
+    assert not stable(MEIJAARD, MEIJAARD.lam, np.linspace(-0.01, near["sigma_min"] - 1e-12, 5001)).any()
+    assert near["sigma_max"] is None
+    assert not stable(MEIJAARD, MEIJAARD.lam, np.linspace(SIGMA_RANGE[0], -0.01, 5001)).any()
+
+
+def test_rounded_ends_are_stable():
+    """Even where a range of stable designs is narrower than a unit of the sixth decimal."""
+    lam, sigma = MEIJAARD.lam, nearest_stable(Family(MEIJAARD), MEIJAARD.lam, -0.01)["sigma_min"]
+
+    def strip(values):  # stable within 1e-8 only
+        table = Family(MEIJAARD).table(lam, np.asarray(values))
+        return np.where(np.asarray(values) < sigma + 1e-8, table, np.nan_to_num(-np.abs(table)))
+
+    assert (
+        rounded(lambda value: Family(MEIJAARD).table(lam, value), sigma, 1)
+        == f"{np.ceil(sigma * 1e6) / 1e6:.6f}"
+    )
+    text = rounded(strip, sigma, 1)
+    assert sigma <= float(text) < sigma + 1e-8
+    assert len(text.split(".")[1]) > 6
 
 
 @pytest.mark.parametrize("lam", [0.0, 0.1, 0.15])
