@@ -36,7 +36,7 @@ def tile(shape: tuple[int, ...], delta: float, fields: tuple[str, ...]) -> Tile:
     """A tile that spans the box."""
     lam, sigma, V = (np.linspace(*BOX[name], n) for name, n in zip(BOX, shape, strict=True))
     bicycle = Bicycle.preset(BICYCLE).with_delta(delta)
-    return Tile(bicycle, "refined", lam, sigma, V, fields, (32, 32, 32), columns=True)
+    return Tile(bicycle, "refined", lam, sigma, V, fields, (32, 32, 32), lowest=True)
 
 
 def masks(t: Tile) -> NDArray[np.uint8]:

@@ -30,6 +30,7 @@ PARTS = {
     "compression": ("compression",),
     "keeping tiles": ("keeping tiles",),
     "writing": ("writing",),
+    "scipy as a witness": ("scipy as a witness",),
     "pictures": ("pictures",),
     "rest": ("rest", "exit"),
 }

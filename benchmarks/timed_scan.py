@@ -70,25 +70,26 @@ def peak(pid: int | str = "self") -> int:
 
 def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
     """Around the parts of a scan; at the end ``workers`` has the peak memory of each process."""
-    from bikestab_cli import scan as command
+    from bikestab.plot import pictures
+    from bikestab.scanning import processes, run, tile
+    from bikestab.scanning.bracketing import Bracketing
+    from bikestab.scanning.spool import Spool
 
-    from bikestab.scanning import processes as pool
-    from bikestab.scanning import run as scan
-    from bikestab.scanning import tile as tiles
-
-    clock.around(scan, "run_scan", "rest")
-    clock.around(scan, "assemble", "writing")
-    clock.around(scan.Spool, "add", "keeping tiles")
-    clock.around(command, "_draw", "pictures")
+    clock.around(run, "run_scan", "rest")
+    clock.around(run, "assemble", "writing")
+    clock.around(Bracketing, "add", "scipy as a witness")
+    clock.around(Bracketing, "agreement", "scipy as a witness")
+    clock.around(Spool, "add", "keeping tiles")
+    clock.around(pictures, "draw_pictures", "pictures")
     if jobs == 1:
-        clock.around(pool, "compute", "evaluation: stable, violated")
-        clock.around(tiles, "check", "evaluation: the check")
-        clock.around(tiles, "_columns", "evaluation: intervals")
+        clock.around(processes, "compute", "evaluation: stable, violated")
+        clock.around(tile, "check", "evaluation: the check")
+        clock.around(tile, "_columns", "evaluation: intervals")
         clock.around(
-            tiles, "field_values",
+            tile, "field_values",
             lambda name, *_: f"evaluation: {name if name == 'growth_rate' else 'stable, violated'}",
         )  # fmt: skip
-        clock.around(tiles, "packed", "compression")
+        clock.around(tile, "packed", "compression")
         return
     process = multiprocessing.get_context("spawn").Process
     kill = process.kill

@@ -2,10 +2,8 @@
 
 import pytest
 
-from bikestab.scanning import plan
-from bikestab.scanning import processes as workers
-from bikestab.scanning import tile as tiles
 from bikestab.scanning.run import run_scan
+from bikestab.scanning.tile import compute
 from tests import volumes
 
 
@@ -18,7 +16,7 @@ def in_an_empty_folder(tmp_path, monkeypatch):
 @pytest.fixture
 def small_tiles(monkeypatch):
     """Let tiles be as small as can be: 64 tilts, 128 trails, 32 speeds."""
-    monkeypatch.setattr(plan, "_TILE_BYTES", 1)
+    monkeypatch.setattr("bikestab.scanning.plan._TILE_BYTES", 1)
 
 
 @pytest.fixture
@@ -30,8 +28,7 @@ def computed(monkeypatch):
         begins.append(round(float(tile.V[0]), 6))
         return compute(tile)
 
-    compute = tiles.compute
-    monkeypatch.setattr(workers, "compute", count)
+    monkeypatch.setattr("bikestab.scanning.processes.compute", count)
     return begins
 
 

@@ -83,14 +83,14 @@ def members(machine: Bicycle, sweep: Mapping[str, NumberAxis]) -> list[Member]:
         raise InputError(
             f"{sizes} machines are too many", key=("sweep",), hint=f"allowed: up to {MOST_MEMBERS}"
         )
-    found = []
+    machines = []
     for point in product(*(axis.points.tolist() for axis in sweep.values())):
         values = dict(zip(sweep, point, strict=True))
         try:
-            found.append(Member(values, machine.replaced(values) if values else machine))
+            machines.append(Member(values, machine.replaced(values) if values else machine))
         except InputError as error:
             raise _of_sweep(error, values) from None
-    return found
+    return machines
 
 
 def _of_sweep(error: InputError, values: Mapping[str, float]) -> InputError:
@@ -115,11 +115,11 @@ def doubts_of(machines: list[Member], ensemble: Ensemble | None) -> list[str]:
         if ensemble:
             drawn.update(ensemble.machines(member.bicycle).doubtful())
     of = f"{{}} of {len(machines)} machines of the sweep: {{}}" if len(machines) > 1 else "{1}"
-    found = [of.format(counts[kind], text) for kind, text in first.items()]
+    doubts = [of.format(counts[kind], text) for kind, text in first.items()]
     if ensemble:
         number = len(machines) * ensemble.samples
-        found += [f"{count} of {number} drawn machines: {text}" for text, count in drawn.items()]
-    return found
+        doubts += [f"{count} of {number} drawn machines: {text}" for text, count in drawn.items()]
+    return doubts
 
 
 def check_samples(machines: list[Member], ensemble: Ensemble | None) -> None:

@@ -8,10 +8,11 @@ from pathlib import Path
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.agreement import Agreement
 from bikestab.scanning.bracketing import Bracketing
+from bikestab.scanning.chunks import unbundled
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.sheets import Atlas
 from bikestab.scanning.spool import Spool
-from bikestab.scanning.tile import Columns, keep_heap, parted
+from bikestab.scanning.tile import Columns, keep_heap
 from bikestab.scanning.writer import VolumeWriter, new_volume
 
 
@@ -36,7 +37,7 @@ def assemble(plan: Plan, spool: Spool, path: Path) -> tuple[int, Agreement, Agre
     widths = [atlas.width for member in range(plan.members) for atlas in atlases(member).values()]
     with new_volume(path, plan) as writer:
         writer.create_columns(
-            max(note["intervals"] for note in notes.values() if note["columns"]), max(widths)
+            max(note["intervals"] for note in notes.values() if note["columns_size"]), max(widths)
         )
         for number in range(len(plan)):
             _write(writer, plan, spool, number, atlases(plan.member(number)), bracketing)
@@ -47,35 +48,35 @@ def assemble(plan: Plan, spool: Spool, path: Path) -> tuple[int, Agreement, Agre
 
 def _atlases(plan: Plan, spool: Spool, member: int) -> dict[str, Atlas]:
     """The sheets of each condition over the (λ, σ) of one machine of the sweep."""
-    tiles = plan.with_columns(member)
-    found = {}
+    tiles = plan.lowest(member)
+    atlases = {}
     for name in CONDITIONS:
         rising, falling = zip(*(spool.notes[number]["most_roots"][name] for number in tiles), strict=True)
-        found[name] = Atlas(name, (max(rising), max(falling)))
+        atlases[name] = Atlas(name, (max(rising), max(falling)))
     for number in tiles:
         columns = _columns(spool, number)
-        for name, atlas in found.items():
+        for name, atlas in atlases.items():
             atlas.add(plan.cell(number), columns.roots[name])
-    for atlas in found.values():
+    for atlas in atlases.values():
         atlas.finish()
-    return found
+    return atlases
 
 
 def _write(
     writer: VolumeWriter, plan: Plan, spool: Spool, number: int, atlases: dict[str, Atlas],
     bracketing: Bracketing,
 ) -> None:  # fmt: skip
-    place, columns = plan.place(number), spool.notes[number]["columns"]
-    writer.write_fields(place, plan[number].shape, parted(spool.read(number, slice(columns, None))))
-    if columns:
-        found = _columns(spool, number)
-        bracketing.add(plan.cell(number), plan[number], found.roots)
+    place, size = plan.place(number), spool.notes[number]["columns_size"]
+    writer.write_fields(place, plan[number].shape, unbundled(spool.read(number, slice(size, None))))
+    if size:
+        columns = _columns(spool, number)
+        bracketing.add(plan.cell(number), plan[number], columns.roots)
         surfaces = {
-            name: atlas.sheets(plan.cell(number), found.roots[name], found.intervals)
+            name: atlas.sheets(plan.cell(number), columns.roots[name], columns.intervals)
             for name, atlas in atlases.items()
         }
-        writer.write_columns(place, found.intervals, surfaces, found.spread)
+        writer.write_columns(place, columns.intervals, surfaces, columns.spread)
 
 
 def _columns(spool: Spool, number: int) -> Columns:
-    return Columns.from_bytes(spool.read(number, slice(spool.notes[number]["columns"])))
+    return Columns.from_bytes(spool.read(number, slice(spool.notes[number]["columns_size"])))

@@ -64,17 +64,17 @@ class Bracketing:
 
     def agreement(self) -> Agreement:
         """How far scipy's zeros are from the exact speeds. Raises ScanError where that is too far."""
-        found = Agreement()
+        total = Agreement()
         for name, parts in self._brackets.items():
             if parts:
-                found = found.combined(_compared(name, _whole(parts)))
-        if found.largest > AGREEMENT:
+                total = total.combined(_compared(name, _whole(parts)))
+        if total.largest > AGREEMENT:
             raise ScanError(
                 "zeros of the conditions that scipy finds between speeds of the grid differ from the exact "
-                f"critical speeds by {found.largest:.3g} m/s, more than the {AGREEMENT:g} m/s that both "
+                f"critical speeds by {total.largest:.3g} m/s, more than the {AGREEMENT:g} m/s that both "
                 "should reach; please report this with the config"
             )
-        return found
+        return total
 
     def _chosen(self, place: tuple[int, int], shape: tuple[int, int]) -> NDArray[np.bool_]:
         i, j = (first + np.arange(n) for first, n in zip(place, shape, strict=True))
@@ -140,5 +140,5 @@ def zeros(name: str, table: Floats, below: Floats, above: Floats) -> Floats:
 
     if not len(below):
         return below
-    found = elementwise.find_root(value, (below, above), args=(np.arange(len(below)),))
-    return np.where(found.success & np.isfinite(found.f_x), found.x, np.nan)
+    result = elementwise.find_root(value, (below, above), args=(np.arange(len(below)),))
+    return np.where(result.success & np.isfinite(result.f_x), result.x, np.nan)

@@ -1,4 +1,7 @@
-"""Arrays → the compressed chunks of an HDF5 dataset, as HDF5's own gzip and shuffle filters make them."""
+"""Arrays → the compressed chunks of an HDF5 dataset, as HDF5's own gzip and shuffle filters make them.
+
+Many chunks can be bundled into one string of bytes.
+"""
 
 from __future__ import annotations
 
@@ -37,6 +40,20 @@ def packed(values: NDArray, chunk: tuple[int, ...]) -> list[bytes]:
         _constant(part.size, int(part[0])) if constant else isal_zlib.compress(part, LEVEL)
         for part, constant in zip(parts, same, strict=True)
     ]
+
+
+def bundled(chunks: list[bytes]) -> bytes:
+    """Chunks as one string of bytes: their number, their lengths, themselves."""
+    head = np.array([len(chunks), *(len(chunk) for chunk in chunks)], np.int64)
+    return b"".join([head.tobytes(), *chunks])
+
+
+def unbundled(data: bytes) -> list[memoryview]:
+    """The chunks that ``bundled`` made one of."""
+    number = int(np.frombuffer(data, np.int64, 1)[0])
+    ends = np.frombuffer(data, np.int64, number, 8).cumsum() + 8 * (number + 1)
+    view = memoryview(data)
+    return [view[start:end] for start, end in zip([8 * (number + 1), *ends[:-1]], ends, strict=True)]
 
 
 def _parts(values: NDArray, chunk: tuple[int, ...]) -> NDArray:

@@ -27,16 +27,16 @@ def check(
     is more than AGREEMENT neither way can tell better. There the two may differ by what the rounding
     allows, or one of them may see two roots and the other none.
     """
-    found = _signs(table, mask, V)
+    agreement = _signs(table, mask, V)
     for name in CONDITIONS:
         speeds = critical.speeds[name]
         gap = np.full((len(speeds) + 1, table.shape[-1]), np.inf)
         gap[1:-1] = np.where(np.isnan(d := np.diff(speeds, axis=0)), np.inf, d)
         for root, room in zip(speeds, np.minimum(gap[1:], gap[:-1]), strict=True):
-            found = found.combined(
+            agreement = agreement.combined(
                 _zeros(table, name, np.where((root > above) & (root <= V[-1]), root, np.nan), room)
             )
-    return found
+    return agreement
 
 
 def _zeros(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
@@ -50,9 +50,11 @@ def _zeros(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
         between = np.sign(below) * np.sign(above) < 0
     step, below, above = (x[between] for x in (step, below, above))  # elsewhere they may be equal
     largest = float((step * np.abs((below + above) / (below - above))).max(initial=0))
+    agreement = Agreement(number, largest)
     poor = np.flatnonzero((root > 0) & ~between)
-    found = Agreement(number, largest)
-    return found.combined(_poor(table[..., poor], name, root[poor], room[poor])) if len(poor) else found
+    if not len(poor):
+        return agreement
+    return agreement.combined(_poor(table[..., poor], name, root[poor], room[poor]))
 
 
 def _poor(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:

@@ -62,10 +62,10 @@ def _of_cells(
     step = max(_PAIRS // cells, 1)
     for start in range(0, number, step):
         part = slice(start, start + step)
-        found = intervals_of(characteristic_table(machines.part(part), lam, sigma, model=model))
-        V1[:, part], V2[:, part] = _widest(found)
-        steps += _steps(found, V)
-        unbounded += np.count_nonzero(np.isinf(found.V2), axis=(0, 2))
+        intervals = intervals_of(characteristic_table(machines.part(part), lam, sigma, model=model))
+        V1[:, part], V2[:, part] = _widest(intervals)
+        steps += _steps(intervals, V)
+        unbounded += np.count_nonzero(np.isinf(intervals.V2), axis=(0, 2))
     stable = np.count_nonzero(np.isfinite(V1), axis=1)
     return Statistics(
         probability=(np.cumsum(steps, axis=1)[:, :-1] / number).astype(np.float32),
@@ -76,20 +76,22 @@ def _of_cells(
     )
 
 
-def _widest(found: Intervals) -> tuple[Floats, Floats]:
+def _widest(intervals: Intervals) -> tuple[Floats, Floats]:
     """V1 and V2 (cell, machine) of the widest of each machine's intervals (machine, cell, interval)."""
-    width = np.where(found.upper > 0, found.V2 - found.V1, -1.0)
+    width = np.where(intervals.upper > 0, intervals.V2 - intervals.V1, -1.0)
     index = np.argmax(width, axis=-1, keepdims=True)  # the first of equal ones
-    V1, V2 = (np.take_along_axis(end, index, axis=-1)[..., 0].T for end in (found.V1, found.V2))
+    V1, V2 = (np.take_along_axis(end, index, axis=-1)[..., 0].T for end in (intervals.V1, intervals.V2))
     return V1, V2
 
 
-def _steps(found: Intervals, V: Floats) -> NDArray[np.int64]:
+def _steps(intervals: Intervals, V: Floats) -> NDArray[np.int64]:
     """By how much the number of stable machines rises from each speed to the next (cell, V + 1)."""
-    cells, width = found.V1.shape[1], len(V) + 1
+    cells, width = intervals.V1.shape[1], len(V) + 1
     row = width * np.arange(cells)[:, np.newaxis]
-    first = row + np.searchsorted(V, found.V1, side="right")  # behind an end NaN is the last step: no rise
-    last = row + np.searchsorted(V, found.V2, side="left")
+    first = row + np.searchsorted(
+        V, intervals.V1, side="right"
+    )  # NaN, behind an end, is the last step: no rise
+    last = row + np.searchsorted(V, intervals.V2, side="left")
     rises, falls = (np.bincount(at.ravel(), minlength=cells * width) for at in (first, last))
     return (rises - falls).reshape(cells, width)
 

@@ -47,7 +47,7 @@ class Direction:
         for axis, key, edge in ((0, f"row {place[1]}", np.s_[:1]), (1, "column", np.s_[:, :1])):
             if key in self._borders:
                 strips = zip(self._borders[key], (V[edge], sheet[edge]), strict=True)
-                strip_V, strip = (_joined(pair, axis) for pair in strips)
+                strip_V, strip = (_side_by_side(pair, axis) for pair in strips)
                 self._touch.append(_pairs(*np.split(strip, 2, axis=axis)))
                 self._joint.append(strip[np.isfinite(strip_V)][_links(strip_V, axis)])
         self._borders |= ours
@@ -131,7 +131,7 @@ def _pairs(a: Indices, b: Indices) -> Indices:
     return np.unique(np.array([one[some], other[some]]), axis=1)
 
 
-def _joined(pair: tuple[NDArray, NDArray], axis: int) -> NDArray:
+def _side_by_side(pair: tuple[NDArray, NDArray], axis: int) -> NDArray:
     """Two strips of roots beside each other, the shorter last axis filled up."""
     most = max(strip.shape[-1] for strip in pair)
     empty = np.nan if pair[0].dtype == float else -1

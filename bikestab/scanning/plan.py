@@ -91,8 +91,8 @@ class Plan:
         """The number of a tile's machine."""
         return number * self.members // len(self)
 
-    def with_columns(self, member: int) -> list[int]:
-        """The numbers of the tiles that give the columns of one machine, row by row."""
+    def lowest(self, member: int) -> list[int]:
+        """The numbers of the tiles with the lowest speeds of one machine, row by row."""
         _, n, m, k = self._counts
         return [(member * n * m + i) * k for i in range(n * m)]
 
@@ -101,12 +101,12 @@ class Plan:
         lam, sigma, V = (
             self._axes[name][i : i + n] for name, i, n in zip(AXES, first, self.tile, strict=True)
         )
-        columns = number % self._counts[3] == 0
-        above = 0.0 if columns else float(self._axes["V"][first[-1] - 1])
+        lowest = number % self._counts[3] == 0
+        above = 0.0 if lowest else float(self._axes["V"][first[-1] - 1])
         config = self.config
         bicycle = config.members[self.member(number)].bicycle
         return Tile(
-            bicycle, config.model, lam, sigma, V, self.fields, self.chunk, columns, above, config.ensemble
+            bicycle, config.model, lam, sigma, V, self.fields, self.chunk, lowest, above, config.ensemble
         )
 
     @cached_property

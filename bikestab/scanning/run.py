@@ -116,7 +116,7 @@ def _compute(plan: Plan, spool: Spool, jobs: int | None, scheduler: str, progres
         finished = in_processes(tiles, jobs) if jobs > 1 else in_turn(tiles)
     with closing(finished):  # at once, whatever happens: there may be processes
         for number, tile in finished:
-            notes = {**tile.notes, "columns": len(tile.columns)}
+            notes = {**tile.notes, "columns_size": len(tile.columns)}
             spool.add(number, notes, tile.columns, tile.chunks)
             done += prod(plan[number].shape)
             progress(done, plan.points)

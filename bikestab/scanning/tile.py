@@ -18,7 +18,7 @@ from bikestab.fields import FIELDS, Points
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.agreement import AGREEMENT, Agreement
-from bikestab.scanning.chunks import packed
+from bikestab.scanning.chunks import bundled, packed
 from bikestab.scanning.crosscheck import check
 from bikestab.scanning.ensemble import ensemble_statistics
 from bikestab.scanning.sheets import Roots, most_roots
@@ -35,8 +35,8 @@ _POINTS = 1 << 14  # evaluated at a time, so that an array of them and its tempo
 class Tile:
     """A part of the grid: λ [rad], σ [1] and V [m/s] of one machine, and what is wanted of it.
 
-    ``columns`` says whether it is the one of its (λ, σ) that also gives what does not depend on V, and
-    ``above`` [m/s] is the last speed of the tile before, if it is not.
+    ``lowest`` says whether it has the lowest speeds of its (λ, σ): it then also gives what does not depend on
+    V. Else ``above`` [m/s] is the last speed of the tile below.
     """
 
     bicycle: Bicycle
@@ -46,7 +46,7 @@ class Tile:
     V: Floats
     fields: tuple[str, ...]
     chunk: tuple[int, int, int]
-    columns: bool
+    lowest: bool
     above: float = 0.0
     ensemble: Ensemble | None = None
 
@@ -116,12 +116,12 @@ def compute(tile: Tile) -> Finished:
     for name in tile.fields:
         chunks += packed(field_values(name, table, tile, mask, probability), tile.chunk)
     columns = b""
-    if tile.columns:
-        found = _columns(table, exact, spread)
-        columns = found.to_bytes()
-        notes["intervals"] = found.intervals.V1.shape[-1]
-        notes["most_roots"] = {name: most_roots(roots) for name, roots in found.roots.items()}
-    return Finished(notes, columns, joined(chunks))
+    if tile.lowest:
+        of_columns = _columns(table, exact, spread)
+        columns = of_columns.to_bytes()
+        notes["intervals"] = of_columns.intervals.V1.shape[-1]
+        notes["most_roots"] = {name: most_roots(roots) for name, roots in of_columns.roots.items()}
+    return Finished(notes, columns, bundled(chunks))
 
 
 def keep_heap() -> None:
@@ -131,20 +131,6 @@ def keep_heap() -> None:
     a tile without growth rates takes half as long again.
     """
     np.empty(1 << 21)
-
-
-def joined(chunks: list[bytes]) -> bytes:
-    """Chunks as one string of bytes: their number, their lengths, themselves."""
-    head = np.array([len(chunks), *(len(chunk) for chunk in chunks)], np.int64)
-    return b"".join([head.tobytes(), *chunks])
-
-
-def parted(data: bytes) -> list[memoryview]:
-    """The chunks that ``joined`` made one of."""
-    number = int(np.frombuffer(data, np.int64, 1)[0])
-    ends = np.frombuffer(data, np.int64, number, 8).cumsum() + 8 * (number + 1)
-    view = memoryview(data)
-    return [view[start:end] for start, end in zip([8 * (number + 1), *ends[:-1]], ends, strict=True)]
 
 
 def field_values(
@@ -174,9 +160,9 @@ def _ensemble(tile: Tile) -> tuple[NDArray[np.float32], Floats]:
     n, m, _ = tile.shape
     machines, quantiles = tile.ensemble.machines(tile.bicycle), tile.ensemble.quantiles
     lam, sigma = np.repeat(tile.lam, m), np.tile(tile.sigma, n)
-    found = ensemble_statistics(machines, lam, sigma, tile.V, tile.model, quantiles)
-    spread = np.column_stack([found.somewhere, found.unbounded, found.V1, found.V2])
-    return found.probability, spread.reshape(n, m, -1)
+    statistics = ensemble_statistics(machines, lam, sigma, tile.V, tile.model, quantiles)
+    spread = np.column_stack([statistics.somewhere, statistics.unbounded, statistics.V1, statistics.V2])
+    return statistics.probability, spread.reshape(n, m, -1)
 
 
 def _columns(table: Floats, exact: Critical, spread: Floats) -> Columns:
@@ -192,12 +178,12 @@ def _columns(table: Floats, exact: Critical, spread: Floats) -> Columns:
     return Columns(ends, roots, spread)
 
 
-def _disagreement(found: Agreement) -> ScanError:
+def _disagreement(agreement: Agreement) -> ScanError:
     problem = (
         "the conditions' signs at the grid's speeds or beside the exact critical speeds are not those that "
         "these give"
-        if np.isinf(found.largest)
-        else f"zeros of the conditions differ from the exact critical speeds by {found.largest:.3g} m/s, "
+        if np.isinf(agreement.largest)
+        else f"zeros of the conditions differ from the exact critical speeds by {agreement.largest:.3g} m/s, "
         f"more than the {AGREEMENT:g} m/s that both should reach"
     )
     return ScanError(f"{problem}; please report this with the config")

@@ -8,8 +8,7 @@ import h5py
 import pytest
 from bikestab_cli import progress
 
-from bikestab.scanning import plan
-from bikestab.scanning import processes as workers
+from bikestab.scanning import processes
 
 CONFIG = """\
 bicycle: dikarev1981
@@ -215,9 +214,9 @@ def tiles(monkeypatch):
             raise stops[len(computed) - 1]
         return really_compute(tile)
 
-    really_compute = workers.compute
-    monkeypatch.setattr(plan, "_TILE_BYTES", 1)
-    monkeypatch.setattr(workers, "compute", compute)
+    really_compute = processes.compute
+    monkeypatch.setattr("bikestab.scanning.plan._TILE_BYTES", 1)
+    monkeypatch.setattr("bikestab.scanning.processes.compute", compute)
     for name in ("a", "b"):
         Path(f"{name}.yaml").write_text(CONFIG.replace("num: 11", "num: 100"))
     return stops
@@ -296,7 +295,7 @@ def test_a_log_gets_a_line_now_and_then(scan, tiles, monkeypatch):
 
 
 def test_processes(scan, monkeypatch):
-    monkeypatch.setattr(plan, "_TILE_BYTES", 1)
+    monkeypatch.setattr("bikestab.scanning.plan._TILE_BYTES", 1)
     volumes = set()
     for args in (["--jobs", "2"], ["--force", "--jobs", "1"]):
         assert scan("a.yaml", "--set", "grid.V.num=100", *args)[::2] == (0, "")

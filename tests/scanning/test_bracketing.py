@@ -21,7 +21,7 @@ LAM, SIGMA, V = np.linspace(0, 0.3, 16), np.linspace(0, 0.15, 12), np.linspace(0
 
 
 def tile_of(bicycle, lam=LAM, sigma=SIGMA, V=V, model="refined"):
-    return Tile(bicycle, model, lam, sigma, V, (), (32, 32, 32), columns=True)
+    return Tile(bicycle, model, lam, sigma, V, (), (32, 32, 32), lowest=True)
 
 
 def roots_of(tile):
@@ -130,7 +130,7 @@ def test_a_root_finder_that_ends_in_nan_has_found_nothing(monkeypatch):
     def never_zero(table, name, V):
         return np.sqrt(np.where(V < 1, 1 - V, np.nan)) + 1
 
-    monkeypatch.setattr(bracketing, "condition", never_zero)
+    monkeypatch.setattr("bikestab.scanning.bracketing.condition", never_zero)
     found = zeros("p0", table_of(p0=[1.0, 0, 0, 0]), np.array([0.0]), np.array([2.0]))
     assert np.isnan(found).all()
 
@@ -140,7 +140,7 @@ def test_a_root_finder_that_ends_in_nan_has_found_nothing(monkeypatch):
 
 @pytest.mark.parametrize("columns", [1, 10, 100, 100_000])
 def test_what_is_found_does_not_depend_on_the_tiles(columns, monkeypatch):
-    monkeypatch.setattr(bracketing, "COLUMNS", columns)
+    monkeypatch.setattr("bikestab.scanning.bracketing.COLUMNS", columns)
     tile = tile_of(DIKAREV.with_delta(0.3))
     whole = seen(tile)
     parts = Bracketing(V, len(LAM) * len(SIGMA))
@@ -153,7 +153,7 @@ def test_what_is_found_does_not_depend_on_the_tiles(columns, monkeypatch):
 
 def test_columns_lie_evenly(monkeypatch):
     """About as many as wanted, in every part of the grid."""
-    monkeypatch.setattr(bracketing, "COLUMNS", 1000)
+    monkeypatch.setattr("bikestab.scanning.bracketing.COLUMNS", 1000)
     chosen = Bracketing(V, 200 * 300)._chosen((0, 0), (200, 300))
     assert np.count_nonzero(chosen) == pytest.approx(1000, rel=0.01)
     parts = chosen.reshape(10, 20, 10, 30).sum(axis=(1, 3))
@@ -164,8 +164,8 @@ def test_columns_lie_evenly(monkeypatch):
 
 
 def test_long_axes_of_speeds_have_fewer_columns(monkeypatch):
-    monkeypatch.setattr(bracketing, "POINTS", 10 * len(V))
+    monkeypatch.setattr("bikestab.scanning.bracketing.POINTS", 10 * len(V))
     found = seen(tile_of(DIKAREV))
-    monkeypatch.setattr(bracketing, "_PART", 7)  # speeds are cut into parts that share their ends
+    monkeypatch.setattr("bikestab.scanning.bracketing._PART", 7)  # parts of the speeds share their ends
     assert seen(tile_of(DIKAREV)) == found
     assert 10 < found.roots < 80

@@ -9,7 +9,7 @@ import pytest
 
 import bikestab
 from bikestab.errors import InputError
-from bikestab.scanning import processes, run
+from bikestab.scanning import run
 from bikestab.scanning.output import tiles_path
 from bikestab.scanning.run import run_scan
 from bikestab.scanning.spool import Spool
@@ -38,7 +38,7 @@ def test_the_same_config_is_kept():
 
 def test_nothing_is_computed_for_a_volume_that_is_kept(monkeypatch):
     run_scan(small())
-    monkeypatch.setattr(processes, "compute", None)
+    monkeypatch.setattr("bikestab.scanning.processes.compute", None)
     assert not run_scan(small()).computed
     with pytest.raises(TypeError):
         run_scan(small(), force=True)
@@ -182,7 +182,9 @@ def test_tiles_of_other_versions_are_refused(name, monkeypatch):
     """Another version may give other bytes."""
     interrupted(3)
     identity = run._identity(config())
-    monkeypatch.setattr(run, "_identity", lambda _: {**identity, f"version of {name}": "9.9"})
+    monkeypatch.setattr(
+        "bikestab.scanning.run._identity", lambda _: {**identity, f"version of {name}": "9.9"}
+    )
     with pytest.raises(InputError, match=f"another version of {name}"):
         run_scan(config())
 

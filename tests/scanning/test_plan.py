@@ -9,8 +9,7 @@ from bikestab import yamltext
 from bikestab.config.file import parse_config
 from bikestab.fields import AXES, FIELDS
 from bikestab.routh import CONDITIONS
-from bikestab.scanning import plan as plans
-from bikestab.scanning.plan import Plan
+from bikestab.scanning.plan import _TILE_BYTES, Plan
 
 ALL_FIELDS = "fields: [conditions, growth_rate, violated, stable]\n"
 
@@ -64,10 +63,10 @@ def test_places_are_at_borders_of_chunks(plan):
 
 @pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
 def test_each_column_is_in_one_tile_that_has_it(plan):
-    """And that is the tile of the lowest speeds; ``with_columns`` finds these, row by row."""
+    """And that is the tile of the lowest speeds; ``lowest`` finds these, row by row."""
     assert plan.members == int(np.prod(plan.lead))
-    having = [number for number in range(len(plan)) if plan[number].columns]
-    found = [plan.with_columns(member) for member in range(plan.members)]
+    having = [number for number in range(len(plan)) if plan[number].lowest]
+    found = [plan.lowest(member) for member in range(plan.members)]
     assert [number for numbers in found for number in numbers] == having
     for member, numbers in enumerate(found):
         assert {plan.member(number) for number in numbers} == {member}
@@ -122,7 +121,7 @@ def bytes_of(plan):
 )
 def test_a_tile_is_no_larger_than_memory_bears(shape, fields):
     plan = plan_of(shape, f"fields: [{', '.join(sorted(fields))}]\n")
-    assert bytes_of(plan) <= plans._TILE_BYTES
+    assert bytes_of(plan) <= _TILE_BYTES
     assert all(n <= whole for n, whole in zip(plan.tile, shape, strict=True))
     assert all(
         n % chunk == 0 or n == whole for n, chunk, whole in zip(plan.tile, plan.chunk, shape, strict=True)
@@ -133,7 +132,7 @@ def test_tiles_of_a_large_grid_are_not_small():
     """Else the calls would cost more than the numbers."""
     for more in ("fields: [stable]\n", ALL_FIELDS):
         plan = plan_of((500, 500, 3000), more)
-        assert bytes_of(plan) > 0.5 * plans._TILE_BYTES
+        assert bytes_of(plan) > 0.5 * _TILE_BYTES
 
 
 def test_seconds_grow_with_the_work():

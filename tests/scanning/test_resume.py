@@ -8,13 +8,12 @@ from pathlib import Path
 import pytest
 
 from bikestab.errors import ScanError
-from bikestab.scanning import processes as workers
-from bikestab.scanning import run as scan
-from bikestab.scanning import tile as tiles
 from bikestab.scanning import writer
 from bikestab.scanning.plan import Plan
+from bikestab.scanning.processes import in_turn
 from bikestab.scanning.run import run_scan
 from bikestab.scanning.spool import Spool
+from bikestab.scanning.tile import compute
 from tests.scans import config_of, files
 
 pytestmark = pytest.mark.usefixtures("in_an_empty_folder", "small_tiles")
@@ -123,15 +122,15 @@ def test_tiles_that_finish_in_another_order(monkeypatch):
     expected = whole()
 
     def backwards(todo):
-        yield from [(number, tiles.compute(tile)) for number, tile in todo][::-1]
+        yield from [(number, compute(tile)) for number, tile in todo][::-1]
 
-    monkeypatch.setattr(scan, "in_turn", backwards)
+    monkeypatch.setattr("bikestab.scanning.run.in_turn", backwards)
     assert run_scan(config()).path.read_bytes() == expected
 
 
 def test_short_scans_start_no_processes(monkeypatch):
-    monkeypatch.setattr(scan, "in_processes", None)
-    monkeypatch.setattr(scan, "cores", lambda: 8)
+    monkeypatch.setattr("bikestab.scanning.run.in_processes", None)
+    monkeypatch.setattr("bikestab.scanning.run.cores", lambda: 8)
     assert run_scan(config(), jobs=None).computed
 
 
@@ -140,10 +139,10 @@ def test_long_ones_use_every_core(monkeypatch):
 
     def in_processes(todo, jobs):
         asked.append(jobs)
-        return workers.in_turn(todo)
+        return in_turn(todo)
 
-    monkeypatch.setattr(scan, "in_processes", in_processes)
-    monkeypatch.setattr(scan, "cores", lambda: 3)
+    monkeypatch.setattr("bikestab.scanning.run.in_processes", in_processes)
+    monkeypatch.setattr("bikestab.scanning.run.cores", lambda: 3)
     monkeypatch.setattr(Plan, "seconds", lambda _: 100.0)
     interrupted(3, jobs=None)
     assert run_scan(config(), jobs=None).computed

@@ -14,9 +14,8 @@ from bikestab.errors import InputError, ScanError
 from bikestab.fields import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scanning import bracketing, plan
-from bikestab.scanning import tile as tiles
 from bikestab.scanning.agreement import AGREEMENT
+from bikestab.scanning.bracketing import zeros
 from bikestab.scanning.output import MOST_VALUES, check_size
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.run import run_scan
@@ -109,8 +108,7 @@ def test_the_agreement_is_reported():
 
 def test_a_witness_that_disagrees_is_an_error(monkeypatch):
     """The tiles are kept, and no volume gets its name."""
-    right = bracketing.zeros
-    monkeypatch.setattr(bracketing, "zeros", lambda *args: right(*args) + 1e-9)
+    monkeypatch.setattr("bikestab.scanning.bracketing.zeros", lambda *args: zeros(*args) + 1e-9)
     with pytest.raises(ScanError, match=r"that scipy finds .*please report this with the config"):
         run_scan(config_of((8, 8, 150)))
     assert files() == ["out/volume.h5.tiles"]
@@ -133,7 +131,7 @@ def test_a_disagreement_is_an_error(factor, message, at, monkeypatch):
             speeds={name: V * (factor if len(calls) > at else 1) for name, V in exact.speeds.items()}
         )
 
-    monkeypatch.setattr(tiles, "critical", off)
+    monkeypatch.setattr("bikestab.scanning.tile.critical", off)
     with pytest.raises(ScanError, match=f"{message}.*please report this with the config"):
         run_scan(config_of((8, 8, 150)))
     assert files() == (["out/volume.h5.tiles"] if at else [])
@@ -170,7 +168,7 @@ print("went on" if again[0] else "began anew")
 
 def test_a_write_that_failed_once_does_not_give_a_wrong_volume(monkeypatch):
     pytest.importorskip("resource")
-    monkeypatch.setattr(plan, "_TILE_BYTES", 1 << 24)  # as in the other process
+    monkeypatch.setattr("bikestab.scanning.plan._TILE_BYTES", 1 << 24)  # as in the other process
     config = config_of((70, 40, 600), "out", "fields: [growth_rate]\n")
     expected = run_scan(config).path.read_bytes()
     shutil.rmtree("out")

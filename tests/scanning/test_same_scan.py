@@ -11,7 +11,6 @@ from bikestab.bicycle import Bicycle
 from bikestab.config.file import load_config, parse_config
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import InputError, ScanError
-from bikestab.scanning import output
 from bikestab.scanning.output import tiles_path
 from bikestab.scanning.run import run_scan
 from bikestab.volume import Volume
@@ -98,7 +97,7 @@ def test_texts_that_cannot_be_replaced_leave_the_volume_as_it_was(error, kind, m
     def fail(*_):
         raise error
 
-    monkeypatch.setattr(output.shutil, "copyfile", fail)
+    monkeypatch.setattr("bikestab.scanning.output.shutil.copyfile", fail)
     with pytest.raises(kind, match=message):
         run_scan(config_of(more="title: another\n"))
     assert path.read_bytes() == before

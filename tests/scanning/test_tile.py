@@ -10,10 +10,9 @@ from bikestab.bicycle import Bicycle
 from bikestab.errors import ScanError
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scanning import tile as tiles
-from bikestab.scanning.chunks import places
+from bikestab.scanning.chunks import bundled, places, unbundled
 from bikestab.scanning.sheets import critical_roots, most_roots
-from bikestab.scanning.tile import Columns, Tile, compute, joined, parted
+from bikestab.scanning.tile import Columns, Tile, compute
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import critical, intervals_of
 
@@ -23,10 +22,10 @@ DTYPES = {"stable": "u1", "violated": "u1", "growth_rate": "f4", **dict.fromkeys
 CHUNK = (4, 4, 8)
 
 
-def tile_of(bicycle=DIKAREV, shape=(9, 7, 30), fields=FIELDS, columns=True, model="refined", **more):
+def tile_of(bicycle=DIKAREV, shape=(9, 7, 30), fields=FIELDS, lowest=True, model="refined", **more):
     n, m, k = shape
     lam, sigma, V = np.linspace(0, 0.3, n), np.linspace(0, 0.15, m), np.linspace(0, 15, k)
-    return Tile(bicycle, model, lam, sigma, V, fields, CHUNK, columns, **more)
+    return Tile(bicycle, model, lam, sigma, V, fields, CHUNK, lowest, **more)
 
 
 def table_of(tile):
@@ -35,7 +34,7 @@ def table_of(tile):
 
 def fields_of(tile, finished):
     """The fields again, by name, from the chunks of a finished tile."""
-    chunks = iter(parted(finished.chunks))
+    chunks = iter(unbundled(finished.chunks))
     found = {}
     for name in tile.fields:
         dtype, size = np.dtype(DTYPES[name]), int(np.prod(CHUNK))
@@ -103,13 +102,13 @@ def test_columns_survive_their_bytes():
 
 
 def test_a_tile_above_another_has_no_columns():
-    finished = compute(tile_of(columns=False, above=3.0))
+    finished = compute(tile_of(lowest=False, above=3.0))
     assert finished.columns == b""
     assert set(finished.notes) == {"stable_points", "agreement"}
 
 
 def test_roots_are_looked_at_above_the_tile_before():
-    number = [compute(tile_of(columns=False, above=above)).notes["agreement"].roots for above in (0, 5, 15)]
+    number = [compute(tile_of(lowest=False, above=above)).notes["agreement"].roots for above in (0, 5, 15)]
     assert number[0] > number[1] > number[2] == 0
 
 
@@ -119,12 +118,12 @@ def test_a_tile_and_what_came_of_it_can_go_to_another_process_and_back():
     assert pickle.loads(pickle.dumps(finished)) == compute(tile) == finished
 
 
-# --- joined chunks
+# --- bundled chunks
 
 
 @pytest.mark.parametrize("chunks", [[b"a"], [b"", b"ab", b"c" * 1000], [b"x" * 7] * 9])
-def test_what_is_joined_can_be_parted(chunks):
-    assert parted(joined(chunks)) == chunks
+def test_what_is_bundled_can_be_unbundled(chunks):
+    assert unbundled(bundled(chunks)) == chunks
 
 
 # --- the two ways disagree
@@ -142,6 +141,6 @@ def test_wrong_exact_speeds_are_an_error(factor, message, monkeypatch):
         exact = critical(table)
         return exact._replace(speeds={name: V * factor for name, V in exact.speeds.items()})
 
-    monkeypatch.setattr(tiles, "critical", off)
+    monkeypatch.setattr("bikestab.scanning.tile.critical", off)
     with pytest.raises(ScanError, match=f"{message}.*please report this with the config"):
         compute(tile_of())
