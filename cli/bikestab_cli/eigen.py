@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.options import (
@@ -16,13 +16,10 @@ from bikestab_cli.options import (
     told_as_options,
     trail_option,
 )
-from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, print_json, table
+from bikestab_cli.output import print_json
 
 if TYPE_CHECKING:
-    from bikestab.branches import Modes
-    from bikestab.records import Interval
-
-COLUMNS = ("weave", "capsize", "castering")
+    from bikestab.model import Model
 
 
 @click.command("eigen")
@@ -48,7 +45,7 @@ def command(
     sigma: float | None,
     speeds: list[float],
     bicycle_name: str,
-    model: Any,
+    model: Model,
     delta: float | None,
     output: str | None,
     csv_file: str | None,
@@ -74,6 +71,8 @@ def command(
       bikestab eigen --bicycle meijaard2007 --V 0:36km/h:361 -o modes.png --csv modes.csv
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
+    from bikestab_cli.eigen_words import told
+
     from bikestab.export.tables import MODES, modes_blocks, save_csv
     from bikestab.records import design_record, interval_records, modes_record
     from bikestab.stability import design_of, modes, stable_intervals
@@ -89,6 +88,7 @@ def command(
     with told_as_options():
         tilt, trail = (float(value) for value in design_of(bicycle, lam, sigma))
         found = modes(bicycle, speeds, tilt, trail, model=model)
+    design = design_record(tilt, trail, bicycle.c)
     intervals = interval_records(stable_intervals(bicycle, tilt, trail, model=model))
     files = {}
     if csv_file:
@@ -102,67 +102,6 @@ def command(
         files["picture"] = output
     if as_json:
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta}
-        design = design_record(tilt, trail, bicycle.c)
         print_json({**head, **design, "intervals": intervals, **modes_record(found), **files})
-    elif files:
-        click.echo("\n".join(files.values()))
     else:
-        click.echo(heading(bicycle, model) + "\n")
-        click.echo(table(DESIGN_HEAD, [design_columns(tilt, trail, bicycle.c)]) + "\n")
-        click.echo("\n".join([*map(_told, intervals)] or ["no stable speed"]))
-        click.echo("".join(line + "\n" for line in _meetings(found, max(speeds))))
-        click.echo(_eigenvalue_table(found))
-
-
-def _told(interval: Interval) -> str:
-    lower = f"{interval['V1']:.6f} m/s ({interval['lower']})"
-    if interval["V2"] is None:
-        return f"stable from {lower} on, without upper limit"
-    return f"stable from {lower} to {interval['V2']:.6f} m/s ({interval['upper']})"
-
-
-def _meetings(modes: Modes, up_to: float) -> list[str]:
-    """What becomes of the eigenvalues that meet, and of the names of the others."""
-    from bikestab.modenames import OSCILLATING
-
-    lines = []
-    for V, pair, below, above in zip(
-        modes.coalescences, modes.meeting, modes.below, modes.above, strict=True
-    ):
-        before, behind = (", ".join(dict.fromkeys(names[row] for row in pair)) for names in (below, above))
-        if above[pair[0]] in OSCILLATING:
-            line = f"two real eigenvalues ({before}) become a complex pair ({behind})"
-        else:
-            line = f"a complex pair ({before}) becomes two real eigenvalues ({behind})"
-        others = [
-            (below[row], above[row]) for row in range(4) if row not in pair and below[row] != above[row]
-        ]
-        renamed = [f"; {old} is {new} from there on" for old, new in dict.fromkeys(others)]
-        if up_to >= V:
-            lines.append(f"at {V:.6f} m/s {line}{''.join(renamed)}")
-    return lines
-
-
-def _eigenvalue_table(modes: Modes) -> str:
-    """A row for each speed, a column for each of the three modes and one for what else there is."""
-    rows = [_row(s, names) for s, names in zip(modes.eigenvalues.T, modes.names.T, strict=True)]
-    head = ["V [m/s]", *(f"{name} [1/s]" for name in COLUMNS), "others [1/s]"]
-    cells = [[f"{V:.6g}", *row] for V, row in zip(modes.V, rows, strict=True)]
-    used = 5 if any(row[-1] for row in rows) else 4
-    return table(head[:used], [row[:used] for row in cells])
-
-
-def _row(s: Any, names: Any) -> list[str]:
-    """The eigenvalues at a speed in the columns of their names; those of others have the name behind."""
-    cells = {name: _motion(s[names == name]) for name in dict.fromkeys(names.tolist())}
-    if "weave" not in cells and "real pair" in cells:
-        cells["weave"] = f"{cells.pop('real pair')} (real pair)"
-    others = [f"{text} ({name})" for name, text in cells.items() if name not in COLUMNS]
-    return [*(cells.get(name, "") for name in COLUMNS), ", ".join(others)]
-
-
-def _motion(s: Any) -> str:
-    """The eigenvalues of one name: pairs as one, real ones each."""
-    return ", ".join(
-        f"{x.real:z.6f} ± {x.imag:z.6f}i" if x.imag else f"{x.real:z.6f}" for x in s if x.imag >= 0
-    )
+        click.echo("\n".join(files.values()) or told(bicycle, model, design, intervals, found))
