@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from bikestab_cli.options import Ends, at_option, check_files
+from bikestab_cli.options import at_option, check_files
 from bikestab_cli.output import count
 
 if TYPE_CHECKING:
-    from bikestab.volume import Volume
+    from bikestab.export.volumes import Counts
+    from bikestab.region.mesh import Mesh
 
 
 class _Scale(click.ParamType):
@@ -73,8 +73,9 @@ def command(
       bikestab export out/quick --intervals intervals.parquet
     """
     from bikestab.export.formats import file_format
-    from bikestab.export.meshes import MESHES
+    from bikestab.export.meshes import MESHES, scale_text
     from bikestab.export.tables import TABLES
+    from bikestab.export.volumes import export_intervals, export_mesh, export_skeleton
     from bikestab.volume import Volume
 
     if not (meshes or intervals or skeleton):
@@ -89,80 +90,33 @@ def command(
     check_files(*names)
     with Volume(volume) as whole:
         opened = whole.at(machine)
-        about = _about(opened)
         if intervals:
-            _write_intervals(opened, intervals, about)
+            _echo(intervals, _intervals_told(export_intervals(opened, intervals)))
         if skeleton:
-            _write_skeleton(opened, skeleton, about)
+            curves = export_skeleton(opened, skeleton)
+            points = sum(len(curve.x) for curve in curves)
+            _echo(skeleton, f"{count(len(curves), 'curve')} of {count(points, 'point')}")
         if meshes:
-            _write_mesh(opened, meshes, cells, scale, about)
+            mesh, factors = export_mesh(opened, meshes, cells=cells, scale=scale)
+            if len(mesh.triangles):
+                _echo(meshes, f"{_mesh_told(mesh)}; {scale_text(factors)}")
+            else:
+                click.echo(f"no surface in the box: no mesh is written ({', '.join(meshes)})")
 
 
-def _about(volume: Volume) -> dict[str, str]:
-    from bikestab import __version__
-
-    bicycle = volume.bicycle
-    return {
-        "title": volume.title, "bicycle": bicycle.name, "model": volume.model, "delta": repr(bicycle.delta),
-        "source": f"bikestab {__version__}", "kinds": "1 weave, 2 capsize",
-    }  # fmt: skip
-
-
-def _box(volume: Volume) -> list[Ends]:
-    axes = volume.axis("lam"), volume.axis("sigma"), volume.axis("V")
-    return [(float(axis[0]), float(axis[-1])) for axis in axes]
-
-
-def _write_intervals(volume: Volume, names: tuple[str, ...], about: dict[str, str]) -> None:
-    from bikestab.export.tables import INTERVALS, interval_blocks, save_table
-
-    stable = volume.read("upper") > 0
-    intervals, designs = int(stable.sum()), stable[..., 0].size
-    without = designs - int(stable.any(axis=-1).sum())
+def _echo(names: tuple[str, ...], words: str) -> None:
     for name in names:
-        save_table(INTERVALS, interval_blocks(volume), Path(name), about)
-        click.echo(
-            f"{name}: {count(intervals, 'interval')}; "
-            f"{without} of {designs} designs have no stable speed and no row"
-        )
+        click.echo(f"{name}: {words}")
 
 
-def _write_skeleton(volume: Volume, names: tuple[str, ...], about: dict[str, str]) -> None:
-    from bikestab.export.tables import SKELETON, save_table, skeleton_blocks
-    from bikestab.family import Family
-    from bikestab.region.curves import trace
-
-    bicycle = volume.bicycle
-    lam, sigma, _ = _box(volume)  # at all speeds: two of the curves are at infinite ones
-    curves = trace(Family(bicycle, volume.model), lam, sigma)
-    points = sum(len(curve.x) for curve in curves)
-    for name in names:
-        save_table(SKELETON, skeleton_blocks(curves, bicycle.c), Path(name), about)
-        click.echo(f"{name}: {count(len(curves), 'curve')} of {count(points, 'point')}")
+def _intervals_told(found: Counts) -> str:
+    without = f"{found.without} of {found.designs} designs have no stable speed and no row"
+    return f"{count(found.intervals, 'interval')}; {without}"
 
 
-def _write_mesh(
-    volume: Volume,
-    names: tuple[str, ...],
-    cells: int,
-    scale: tuple[float, float, float] | None,
-    about: dict[str, str],
-) -> None:
-    from bikestab.export.meshes import readable_scale, save_mesh, scale_text
-    from bikestab.family import Family
-    from bikestab.region.mesh import region_mesh
+def _mesh_told(mesh: Mesh) -> str:
     from bikestab.speeds import CAPSIZE, WEAVE
 
-    box = _box(volume)
-    mesh = region_mesh(Family(volume.bicycle, volume.model), *box, cells=cells)
-    if not len(mesh.triangles):
-        click.echo(f"no surface in the box: no mesh is written ({', '.join(names)})")
-        return
-    factors = readable_scale(*zip(*box, strict=True)) if scale is None else scale
     weave, capsize = (int((mesh.kind == kind).sum()) for kind in (WEAVE, CAPSIZE))
-    for name in names:
-        save_mesh(mesh, Path(name), factors, about)
-        click.echo(
-            f"{name}: {count(len(mesh.points), 'point')}, {count(len(mesh.triangles), 'triangle')} "
-            f"({weave} weave, {capsize} capsize); {scale_text(factors)}"
-        )
+    size = f"{count(len(mesh.points), 'point')}, {count(len(mesh.triangles), 'triangle')}"
+    return f"{size} ({weave} weave, {capsize} capsize)"

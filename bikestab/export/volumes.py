@@ -1,0 +1,77 @@
+"""What a volume shows, written for other programs: its intervals, its skeleton, its boundary as a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from bikestab import __version__
+from bikestab.export.meshes import readable_scale, save_mesh
+from bikestab.export.tables import INTERVALS, SKELETON, interval_blocks, save_table, skeleton_blocks
+from bikestab.family import Family
+from bikestab.fields import AXES
+from bikestab.region.curves import Curve, trace
+from bikestab.region.mesh import Mesh, region_mesh
+from bikestab.volume import Volume
+
+Paths = Iterable[str | Path]
+
+
+class Counts(NamedTuple):
+    """How many intervals and designs a volume has, and how many of the designs have no interval."""
+
+    intervals: int
+    designs: int
+    without: int
+
+
+def export_intervals(volume: Volume, paths: Paths) -> Counts:
+    """Write the stable intervals of every design, one per row. Raises as ``save_table``."""
+    stable = volume.read("upper") > 0
+    for path in paths:
+        save_table(INTERVALS, interval_blocks(volume), Path(path), about(volume))
+    designs = stable[..., 0].size
+    return Counts(int(stable.sum()), designs, designs - int(stable.any(axis=-1).sum()))
+
+
+def export_skeleton(volume: Volume, paths: Paths) -> list[Curve]:
+    """Write the curves where intervals appear, vanish or get another end; what was written.
+
+    They are traced through the volume's (λ, σ), and at all speeds, since two of them are at infinite ones.
+    Raises as ``save_table``.
+    """
+    lam, sigma, _ = _box(volume)
+    curves = trace(Family(volume.bicycle, volume.model), lam, sigma)
+    for path in paths:
+        save_table(SKELETON, skeleton_blocks(curves, volume.bicycle.c), Path(path), about(volume))
+    return curves
+
+
+def export_mesh(
+    volume: Volume, paths: Paths, *, cells: int = 100, scale: Sequence[float] | None = None
+) -> tuple[Mesh, Sequence[float]]:
+    """Write the boundary within the volume's box, unless it has none there; the mesh, and its axes' factors.
+
+    ``cells`` are the triangles along tilt and along trail, and ``scale`` (3,) the factors of λ, σ and V, by
+    default round ones. Raises as ``save_mesh``.
+    """
+    box = _box(volume)
+    mesh = region_mesh(Family(volume.bicycle, volume.model), *box, cells=cells)
+    factors = readable_scale(*zip(*box, strict=True)).tolist() if scale is None else scale
+    for path in paths if len(mesh.triangles) else ():
+        save_mesh(mesh, Path(path), factors, about(volume))
+    return mesh, factors
+
+
+def about(volume: Volume) -> dict[str, str]:
+    """What every file says of where it comes from."""
+    bicycle = volume.bicycle
+    return {
+        "title": volume.title, "bicycle": bicycle.name, "model": volume.model, "delta": repr(bicycle.delta),
+        "source": f"bikestab {__version__}", "kinds": "1 weave, 2 capsize",
+    }  # fmt: skip
+
+
+def _box(volume: Volume) -> list[tuple[float, float]]:
+    return [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in AXES)]
