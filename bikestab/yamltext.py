@@ -88,6 +88,10 @@ def parse(text: str, file: str) -> Document:
     except ValueError as error:  # such as a number that Python does not read
         problem = " ".join(str(error).split(";")[0].split())
         raise InputError(f"not valid YAML: {problem[:120]}", place=file) from None
+    except (AttributeError, KeyError, TypeError, AssertionError, IndexError) as error:
+        # ruamel's own, on '!!bool maybe', merges of themselves and the like; it has no line for them
+        problem = f"something in it cannot be built ({type(error).__name__}: {shown(str(error))})"
+        raise InputError(f"not valid YAML: {problem}", place=file) from None
     if not isinstance(data, dict):
         found = (
             "an empty document" if data is None else "a list" if isinstance(data, list)

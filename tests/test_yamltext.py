@@ -62,3 +62,9 @@ def test_a_file_need_not_be_plain(tmp_path):
     path.write_text(text.replace("name: dikarev1981", "name: 'dikarev1981'"), "utf-8")
     assert yamltext.plain(path.read_text("utf-8")) is None
     assert Bicycle.from_file(path) == Bicycle.preset("dikarev1981")
+
+
+@pytest.mark.parametrize("text", ["a: !!bool maybe\n", "a: &a\n  <<: *a\n", "a: &a {<<: *a}\n"])
+def test_what_the_parser_stumbles_over(text):
+    with pytest.raises(InputError, match=r"^a\.yaml: not valid YAML: something in it cannot be built"):
+        yamltext.parse(text, "a.yaml")

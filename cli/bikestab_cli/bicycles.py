@@ -5,12 +5,12 @@ from __future__ import annotations
 import textwrap
 
 import click
-from bikestab_cli.options import json_option
+from bikestab_cli.options import NAME, json_option
 from bikestab_cli.output import print_json
 
 
 @click.command("bicycles")
-@click.argument("name", required=False)
+@click.argument("name", type=NAME, required=False)
 @json_option
 def command(name: str | None, as_json: bool) -> None:
     """List the bicycles that come with bikestab.

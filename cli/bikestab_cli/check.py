@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import of_file
+from bikestab_cli.options import NAME, of_file
 from bikestab_cli.output import table
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @click.command("check")
-@click.argument("configs", nargs=-1, required=True, metavar="CONFIG...")
+@click.argument("configs", type=NAME, nargs=-1, required=True, metavar="CONFIG...")
 def command(configs: tuple[str, ...]) -> None:
     """Compare what configs expect with the exact speeds.
 

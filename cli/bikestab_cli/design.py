@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from bikestab_cli.options import (
     ANGLE_ENDS,
+    FILE,
     SPEED_ENDS,
     SPEED_VALUE,
     TRAIL_ENDS,
@@ -65,8 +66,10 @@ if TYPE_CHECKING:
     help="Intervals count up to here [m/s]; those that start above do not.",
 )
 @machine_options
-@click.option("-o", "--output", metavar="FILE", help="Draw the (λ, σ) plane as PNG, PDF or SVG.")
-@click.option("--csv", "csv_file", metavar="FILE", help="Write the Pareto front at full precision.")
+@click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw the (λ, σ) plane as PNG, PDF or SVG.")
+@click.option(
+    "--csv", "csv_file", type=FILE, metavar="FILE", help="Write the Pareto front at full precision."
+)
 @json_option
 def command(
     lam: Ends,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.options import (
+    FILE,
     SPEEDS,
     check_files,
     json_option,
@@ -36,9 +37,15 @@ if TYPE_CHECKING:
 )
 @machine_options
 @click.option(
-    "-o", "--output", metavar="FILE", help="Draw a PNG, PDF or SVG from START to STOP, however coarse NUM."
+    "-o",
+    "--output",
+    type=FILE,
+    metavar="FILE",
+    help="Draw a PNG, PDF or SVG from START to STOP, however coarse NUM.",
 )
-@click.option("--csv", "csv_file", metavar="FILE", help="Write V, branch, name, re, im at full precision.")
+@click.option(
+    "--csv", "csv_file", type=FILE, metavar="FILE", help="Write V, branch, name, re, im at full precision."
+)
 @json_option
 def command(
     lam: float | None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import click
-from bikestab_cli.options import at_option, check_files
+from bikestab_cli.options import FILE, NAME, at_option, check_files
 from bikestab_cli.output import count
 
 if TYPE_CHECKING:
@@ -29,15 +29,28 @@ class _Scale(click.ParamType):
 
 
 @click.command("export")
-@click.argument("volume")
+@click.argument("volume", type=NAME)
 @click.option(
-    "--mesh", "meshes", metavar="FILE", multiple=True, help="The boundary surface: .vtp, .vtu, .ply or .stl."
+    "--mesh",
+    "meshes",
+    type=FILE,
+    metavar="FILE",
+    multiple=True,
+    help="The boundary surface: .vtp, .vtu, .ply or .stl.",
 )
 @click.option(
-    "--intervals", metavar="FILE", multiple=True, help="Every design's stable intervals: .csv or .parquet."
+    "--intervals",
+    type=FILE,
+    metavar="FILE",
+    multiple=True,
+    help="Every design's stable intervals: .csv or .parquet.",
 )
 @click.option(
-    "--skeleton", metavar="FILE", multiple=True, help="Curves where intervals change: .csv or .parquet."
+    "--skeleton",
+    type=FILE,
+    metavar="FILE",
+    multiple=True,
+    help="Curves where intervals change: .csv or .parquet.",
 )
 @at_option
 @click.option(

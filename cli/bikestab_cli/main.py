@@ -17,6 +17,7 @@ COMMANDS = (
     "scan", "vrange", "eigen", "design", "slice", "export", "reproduce", "check", "info", "bicycles", "init",
     "schema",
 )  # fmt: skip
+DEVELOPER = "please report it, with what 'python -X dev -m bikestab ...' shows"
 
 
 class _Lazy(click.Group):
@@ -99,6 +100,13 @@ def _run(program: str, args: list[str]) -> int:
         return _tell(3, str(error))
     except MemoryError:
         return _tell(3, "not enough memory", "take fewer values, or fewer fields")
+    except OSError:  # which main tells of
+        raise
+    except Exception as error:
+        if sys.flags.dev_mode:
+            raise
+        problem = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+        return _tell(3, f"a mistake of bikestab itself ({problem})", DEVELOPER)
     return 0
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -75,6 +76,24 @@ class QuantityEnds(Quantity):
         return start, stop
 
 
+class Name(click.ParamType):
+    """Text that is not empty; of a file, one that a file can have."""
+
+    name = "text"
+
+    def __init__(self, *, of_file: bool = False) -> None:
+        self.of_file = of_file
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        text = str(value)
+        if not text.strip():
+            self.fail(f"{text!r} is no name", param, ctx)
+        if self.of_file and (text.endswith(("/", os.sep)) or Path(text).name in ("", "..")):
+            self.fail(f"{text!r} is a folder, not a file to write", param, ctx)
+        return text
+
+
+NAME, FILE = Name(), Name(of_file=True)
 ANGLE_VALUE, TRAIL_VALUE, SPEED_VALUE = (
     Quantity(name, units) for name, units in (("angle", ANGLE), ("number", PURE), ("speed", SPEED))
 )
@@ -98,7 +117,8 @@ def machine_options(function: F) -> F:
             help="The paper's refined equations, or those before it.",
         ),
         click.option(
-            "--bicycle", "bicycle_name", metavar="NAME|FILE", default=DEFAULT_BICYCLE, show_default=True,
+            "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", default=DEFAULT_BICYCLE,
+            show_default=True,
             help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a YAML file.",
         ),
     ):  # fmt: skip
@@ -139,7 +159,9 @@ def load_bicycle(name: str, delta: float | None) -> Bicycle:
 
     if delta is not None and delta < 0:
         raise click.BadParameter(f"{delta:g} is negative; allowed: 0 and above", param_hint="--delta")
-    bicycle = Bicycle.load(name).with_delta(delta)
+    bicycle = Bicycle.load(name)
+    with told_as_options():
+        bicycle = bicycle.with_delta(None if delta is None else delta + 0.0)  # not -0
     warn(bicycle)
     return bicycle
 

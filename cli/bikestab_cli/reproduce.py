@@ -6,12 +6,14 @@ import sys
 from pathlib import Path
 
 import click
+from bikestab_cli.options import NAME
 
 
 @click.command("reproduce")
 @click.option(
     "-o",
     "--output",
+    type=NAME,
     metavar="FOLDER",
     default="out/reproduce",
     show_default=True,

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import json_option, of_file
+from bikestab_cli.options import NAME, json_option, of_file
 from bikestab_cli.output import print_json
 from bikestab_cli.progress import progress
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.command("scan")
-@click.argument("configs", nargs=-1, required=True, metavar="CONFIG...")
+@click.argument("configs", type=NAME, nargs=-1, required=True, metavar="CONFIG...")
 @click.option(
     "--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a value, e.g. grid.V.num=61."
 )
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--scheduler",
+    type=NAME,
     metavar="ADDRESS",
     help="Compute on a Dask cluster: tcp://HOST:PORT, or local:N processes. Needs the extra 'cluster'.",
 )

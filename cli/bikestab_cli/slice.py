@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Literal
 
 import click
-from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE, at_option
+from bikestab_cli.options import ANGLE_VALUE, FILE, NAME, SPEED_VALUE, TRAIL_VALUE, at_option
 
 
 @click.command("slice")
-@click.argument("volume")
+@click.argument("volume", type=NAME)
 @click.option("--lam", type=ANGLE_VALUE, help="Fix the tilt: the picture is over trail and speed.")
 @click.option("--sigma", type=TRAIL_VALUE, help="Fix the trail: the picture is over tilt and speed.")
 @click.option("--V", "V", type=SPEED_VALUE, help="Fix the speed: the picture is over tilt and trail.")
@@ -21,7 +21,11 @@ from bikestab_cli.options import ANGLE_VALUE, SPEED_VALUE, TRAIL_VALUE, at_optio
     help="Of an ensemble: how probable stability is, not the growth rate.",
 )
 @click.option(
-    "-o", "--output", metavar="FILE", help="PNG, PDF or SVG; default slice_AXIS_VALUE.png beside the volume."
+    "-o",
+    "--output",
+    type=FILE,
+    metavar="FILE",
+    help="PNG, PDF or SVG; default slice_AXIS_VALUE.png beside the volume.",
 )
 def command(
     volume: str, lam: float | None, sigma: float | None, V: float | None, machine: dict[str, float],

@@ -369,3 +369,42 @@ def test_check_mistakes(bikestab):
     mistake(bikestab("check", "c.yaml"), "c.yaml: has no expectations")
     mistake(bikestab("check", "none.yaml"), "none.yaml: there is no such file")
     mistake(bikestab("check"), "Missing argument")
+
+
+# --- names
+
+
+@pytest.mark.parametrize(
+    "args",
+    [["check"], ["scan"], ["info"], ["slice", "--lam", "1"], ["vrange", "--bicycle"], ["init"], ["bicycles"]],
+)
+def test_an_empty_name_is_told(bikestab, args):
+    mistake(bikestab(*args, ""), "'' is no name")
+
+
+@pytest.mark.parametrize("name", ["", ".", "..", "/", "deep/"])
+@pytest.mark.parametrize(
+    "args",
+    [["eigen", "-o"], ["eigen", "--csv"], ["design", "-o"], ["slice", "v", "--lam", "1", "-o"],
+     ["export", "v", "--mesh"], ["export", "v", "--intervals"]],
+)  # fmt: skip
+def test_a_folder_is_no_file_to_write(bikestab, args, name):
+    Path("deep").mkdir()
+    mistake(bikestab(*args, name), f"{name!r} is {'a folder, not a file to write' if name else 'no name'}")
+    assert [path.name for path in Path().rglob("*")] == ["deep"]
+
+
+# --- mistakes of its own
+
+
+def test_no_traceback_even_of_its_own_mistakes(bikestab, monkeypatch):
+    def broken(*args, **kwargs):
+        raise ZeroDivisionError("no\nsuch luck " + 300 * "x")
+
+    monkeypatch.setattr("bikestab.region.answers.stable_speeds", broken)
+    code, out, err = bikestab("vrange", "--bicycle", "meijaard2007")
+    assert (code, out) == (3, "")
+    first, hint = err.splitlines()
+    assert first.startswith("error: a mistake of bikestab itself (ZeroDivisionError: no such luck xxx")
+    assert len(first) < 250
+    assert "python -X dev -m bikestab" in hint
