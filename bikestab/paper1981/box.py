@@ -12,9 +12,27 @@ Range = tuple[float, float]
 LAM: Range = (0.0, 0.3)  # rad; section 2 of the paper
 SIGMA: Range = (0.0, 0.15)
 V: Range = (0.0, 15.0)  # m/s
-WIDER = 2.0  # the box, this much longer along λ and σ, shows what lies just beyond the paper's
-WIDER_LAM: Range = (LAM[0], WIDER * LAM[1])
-WIDER_SIGMA: Range = (SIGMA[0], WIDER * SIGMA[1])
+
+
+@dataclass(frozen=True)
+class DesignBox:
+    """Ranges of λ [rad] and σ."""
+
+    lam: Range
+    sigma: Range
+
+    @property
+    def wider(self) -> DesignBox:
+        """The box twice as long along λ and σ, which shows what lies just beyond."""
+        return DesignBox((self.lam[0], 2 * self.lam[1]), (self.sigma[0], 2 * self.sigma[1]))
+
+    @property
+    def area(self) -> float:
+        """Its area [rad]."""
+        return (self.lam[1] - self.lam[0]) * (self.sigma[1] - self.sigma[0])
+
+
+PAPER_BOX = DesignBox(LAM, SIGMA)
 
 
 @dataclass(frozen=True)
@@ -30,11 +48,10 @@ class Sampling:
     search: int = 161  # what the search for the best designs starts from
     picture: int = 401
     cells: int = 48  # of the mesh drawn in three dimensions
-    every: int = 1  # reading of the printed values
 
 
 FULL = Sampling()
-QUICK = Sampling(200, 60, 24, 30, 60, 11, 31, 121, 20, 3)
+QUICK = Sampling(200, 60, 24, 30, 60, 11, 31, 121, 20)
 
 
 def middles(ends: Range, n: int) -> Floats:

@@ -6,6 +6,7 @@ The rules know nothing of how the numbers came about, and their thresholds are i
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Literal
 
 Verdict = Literal["holds", "holds with limits", "does not hold"]
@@ -24,16 +25,22 @@ CLAIMS = {
 }
 THRESHOLDS = {
     "nearly_all": 0.99,  # conclusion 2: of neighbouring designs, where the wider of two is as claimed
-    "one_optimum": 0.1,  # conclusion 3: of the box's sides; optima closer than that are one choice
+    "one_optimum": 0.1,  # of the box's sides; optima closer than that to each other or to an end are one
     "marked": 0.05,  # conclusion 4: relative change of a boundary
-    "bearings": 0.1,  # kg m²/s: up to here δ is taken for the friction of bearings, above for a damper
+    "bearings": 0.34,  # kg m²/s: viscous friction that Moore (2012) measured in a steering's bearings
+    "one_bearing": 0.17,  # kg m²/s: half of it, as he takes for one of its two sets of bearings
+    "smallest": 0.02,  # conclusion 4: other changes that one might call marked
+    "larger": 0.1,
+    "largest": 0.2,
     "dampers": 10.0,  # kg m²/s: the highest δ tried
 }
+MARKED = ("smallest", "marked", "larger", "largest")  # of the thresholds: changes of a boundary
 RULES = {
     1: "holds if no design has an unbounded interval or more than one; with limits if only designs outside "
     "the paper's box do; else it does not hold",
     2: "holds if a larger σ widens the interval and, from some σ on, so does a smaller λ down to λ = 0; with "
-    "limits if it does so down to an optimum λ > 0 only; else it does not hold",
+    "limits if it does so down to an optimum λ > 0 only; else, or if the widest interval of all is at the "
+    "largest λ, to a tenth of the box's side, it does not hold",
     3: "holds if there are stable designs, and the widest interval and the fastest decay are found at one of "
     "them; with limits if at different ones; does not hold without stable designs",
     4: "holds if no boundary moves markedly up to the strongest damper; with limits if none does up to the "
@@ -48,11 +55,13 @@ def judge_finite(in_box: float, beyond: float) -> Verdict:
     return LIMITS if beyond > 0 else HOLDS
 
 
-def judge_widening(along_sigma: float, sigma_from: float | None, reaches_zero: bool) -> Verdict:
+def judge_widening(
+    along_sigma: float, sigma_from: float | None, reaches_zero: bool, at_largest_lam: bool
+) -> Verdict:
     """Conclusion 2, from the share of steps to larger σ that widen the interval, the σ from which a smaller
-    λ does, and whether it does so down to λ = 0.
+    λ does, whether it does so down to λ = 0, and whether the widest of all is at the largest λ.
     """
-    if sigma_from is None or along_sigma < THRESHOLDS["nearly_all"]:
+    if sigma_from is None or along_sigma < THRESHOLDS["nearly_all"] or at_largest_lam:
         return FAILS
     return HOLDS if reaches_zero else LIMITS
 
@@ -73,12 +82,13 @@ def judge_damping(marked_from: float | None) -> Verdict:
     return LIMITS if marked_from > THRESHOLDS["bearings"] else FAILS
 
 
-def first_marked(deltas: list[float], changes: list[float | None]) -> float | None:
-    """The lowest δ at which |change| reaches the threshold, interpolated in log δ; None if it never does.
+def first_marked(
+    deltas: Sequence[float], changes: Sequence[float | None], limit: float = THRESHOLDS["marked"]
+) -> float | None:
+    """The lowest δ at which |change| reaches the limit, interpolated in log δ; None if it never does.
 
-    ``deltas`` ascend and are positive; a change that is None counts as beyond any threshold.
+    ``deltas`` ascend and are positive; a change that is None counts as beyond any limit.
     """
-    limit = THRESHOLDS["marked"]
     for i, change in enumerate(changes):
         size = math.inf if change is None else abs(change)
         if size >= limit:

@@ -2,39 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
-from bikestab.model import Floats, characteristic_table, coefficients
+from bikestab.model import Floats, characteristic_table
 from bikestab.paper1981 import claims
-from bikestab.paper1981.box import LAM, SIGMA, middles
+from bikestab.paper1981.box import PAPER_BOX, DesignBox, middles
+from bikestab.paper1981.damped_designs import DampedDesign, relative, single_designs
+from bikestab.paper1981.forks import bent_forwards
 from bikestab.paper1981.maps import Flags, has_unbounded, widths
 from bikestab.region.lines import lowest_stable
-from bikestab.speeds import CAPSIZE, WEAVE, intervals_of
+from bikestab.speeds import WEAVE, intervals_of
 
-DESIGNS = ((0.20, 0.08), (0.30, 0.10), (0.05, 0.15), (0.12, 0.12))  # (λ, σ), stable without damping
-UNSTABLE = (0.10, 0.08)  # without damping
-FOLDS = (0.10, 0.20, 0.30)  # λ [rad] at which the smallest stable σ is followed
 DELTAS = tuple(float(f"{delta:.4g}") for delta in np.logspace(-3, 1, 21))  # kg m²/s
+FEW = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 10.0)
 SHOWN = (0.001, 0.01, 0.1, 1.0, 10.0)  # in the report's tables
-FEW = (0.01, 0.03, 0.1, 1.0, 10.0)
+FOLDS = (1 / 3, 2 / 3, 1.0)  # of the largest λ: where the smallest stable σ is followed
+_ROUNDS, _SAMPLES = 4, 60  # of sampling a line for its smallest stable σ
 
 
-@dataclass(frozen=True)
-class Undamped:
-    """The region without damping: its volume [rad m/s] and the smallest stable σ at each λ of FOLDS."""
+class Measures(NamedTuple):
+    """What is followed against δ, of all designs or of those whose fork is bent forwards."""
 
     volume: float
-    sigma_min: list[float | None]
+    V1: Floats  # of each design, NaN where the first interval does not start with weave
+    sigma_min: list[float | None]  # at each λ of FOLDS
 
 
 @dataclass(frozen=True)
-class Damped:
-    """The region with damping δ [kg m²/s], and its changes relative to δ = 0."""
+class Change:
+    """With damping δ [kg m²/s]: the region's volume [rad m/s], and changes relative to δ = 0."""
 
     delta: float
     volume: float
@@ -43,190 +46,189 @@ class Damped:
     V1_change_largest: float | None
     sigma_min: list[float | None]
     sigma_min_change: list[float | None]
-    p0_change: float
-    unbounded_changed: int
 
 
 @dataclass(frozen=True)
-class Ends:
-    """The first stable interval of a design [m/s]; without an upper limit V2 is None, without speeds both."""
+class Sweep:
+    """The changes at every δ; from which δ [kg m²/s] each measure is marked, by what counts as marked.
 
-    V1: float | None
-    V2: float | None
-    capsize: bool
+    ``marked_from`` is the lowest of them by the threshold of the verdict: what it is drawn from.
+    """
 
-
-@dataclass(frozen=True)
-class DampedEnds:
-    """The first stable interval of a design with damping δ [kg m²/s]."""
-
-    delta: float
-    V1: float | None
-    V2: float | None
-    capsize: bool
-
-
-@dataclass(frozen=True)
-class DampedDesign:
-    """A design's interval against δ, and the δ [kg m²/s] that equals b1° V1/c."""
-
-    lam: float
-    sigma: float
-    without: Ends
-    sweep: list[DampedEnds]
-    marked_from: float | None
-    stable_from: float | None
-    kinematic_damping: float | None
-
-
-@dataclass(frozen=True)
-class MarkedFrom:
-    """The lowest δ [kg m²/s] from which any measure has moved markedly: what the verdict is drawn from."""
-
+    volume: float
+    sigma_min: list[float | None]
+    changes: list[Change]
+    marked_by_measure: dict[str, dict[str, float | None]]
+    verdict_by_measure: dict[str, claims.Verdict]
     marked_from: float | None
 
 
 @dataclass(frozen=True)
 class Damping:
-    """How the region, its smallest trail and single designs change with δ [kg m²/s].
+    """How the region and its smallest trail change with δ [kg m²/s].
 
-    ``marked_from`` names, for each measure, the δ from which it is marked.
+    Of all designs and of those with forks bent forwards; also how far p0 changes, and how many designs
+    change in having an upper limit.
     """
 
     designs: int
-    marked: float
-    bearings: float
-    verdict_by_measure: dict[str, claims.Verdict]
     deltas: list[float]
-    without: Undamped
-    range: tuple[float, float]
     shown: list[float]
+    folds_at_lam: list[float]
     p0_change: float
     unbounded_changed: int
-    folds_at_lam: list[float]
-    sweep: list[Damped]
-    marked_from: dict[str, float | None]
-    judged_by: MarkedFrom
+    everywhere: Sweep
+    forwards: Sweep
     single_designs: list[DampedDesign]
 
 
-def damping(bicycle: Bicycle, n: int, deltas: tuple[float, ...] = DELTAS) -> Damping:
-    """The numbers behind conclusion 4, from n × n designs."""
-    still, rows = _sweep(bicycle, n, deltas)
-    marked = _marked_from(deltas, rows)
-    return Damping(
-        designs=n * n,
-        marked=claims.THRESHOLDS["marked"],
-        bearings=claims.THRESHOLDS["bearings"],
-        verdict_by_measure={name: claims.judge_damping(delta) for name, delta in marked.items()},
-        deltas=list(deltas),
-        without=Undamped(still.volume, still.sigma_min),
-        range=(deltas[0], deltas[-1]),
-        shown=[delta for delta in SHOWN if delta in deltas],
-        p0_change=max(row.p0_change for row in rows),
-        unbounded_changed=max(row.unbounded_changed for row in rows),
-        folds_at_lam=list(FOLDS),
-        sweep=rows,
-        marked_from=marked,
-        judged_by=MarkedFrom(_lowest(marked)),
-        single_designs=single_designs(bicycle, deltas),
-    )
-
-
-def marked_from(bicycle: Bicycle, n: int, deltas: tuple[float, ...] = FEW) -> float | None:
-    """The lowest δ [kg m²/s] from which any measure of n × n designs is marked; None if none is."""
-    return _lowest(_marked_from(deltas, _sweep(bicycle, n, deltas)[1]))
-
-
-def single_designs(bicycle: Bicycle, deltas: tuple[float, ...] = DELTAS) -> list[DampedDesign]:
-    """V1 and V2 [m/s] of the first interval of single designs against δ, and the δ that equals b1° V/c."""
-    return [_single_design(bicycle, lam, sigma, deltas) for lam, sigma in (*DESIGNS, UNSTABLE)]
-
-
-def _single_design(bicycle: Bicycle, lam: float, sigma: float, deltas: tuple[float, ...]) -> DampedDesign:
-    without = _ends(bicycle.with_delta(0.0), lam, sigma)
-    sweep = [DampedEnds(delta, **vars(_ends(bicycle.with_delta(delta), lam, sigma))) for delta in deltas]
-    changes = [_relative(row.V1, without.V1) for row in sweep]
-    b1 = float(coefficients(bicycle, lam, sigma).b1.value)
-    return DampedDesign(
-        lam=lam,
-        sigma=sigma,
-        without=without,
-        sweep=sweep,
-        marked_from=claims.first_marked(list(deltas), changes) if without.V1 else None,
-        stable_from=next((row.delta for row in sweep if row.V1 is not None), None),
-        kinematic_damping=b1 * without.V1 / bicycle.c if without.V1 else None,
-    )
-
-
-def _ends(bicycle: Bicycle, lam: float, sigma: float) -> Ends:
-    intervals = intervals_of(characteristic_table(bicycle, lam, sigma))
-    if not intervals.upper[0]:
-        return Ends(None, None, capsize=False)
-    V1, V2 = float(intervals.V1[0]), float(intervals.V2[0])
-    return Ends(V1, V2 if np.isfinite(V2) else None, capsize=bool(intervals.upper[0] == CAPSIZE))
-
-
 class _Region(NamedTuple):
-    """The stable region of a grid of designs, with its smallest trails and its lower ends."""
+    """The stable region of a grid of designs."""
 
     p0: Floats
-    volume: float
-    weave: Flags  # whether the first interval starts with weave
+    width: Floats
     V1: Floats
     unbounded: Flags
     sigma_min: list[float | None]
 
 
-def _sweep(bicycle: Bicycle, n: int, deltas: tuple[float, ...]) -> tuple[_Region, list[Damped]]:
-    """The region of n × n designs without damping, and what each δ changes."""
-    still = _region(bicycle.with_delta(0.0), n)
-    return still, [_compared(_region(bicycle.with_delta(delta), n), still, delta) for delta in deltas]
+def damping(bicycle: Bicycle, n: int, deltas: tuple[float, ...] = DELTAS) -> Damping:
+    """The numbers behind conclusion 4, from n × n designs."""
+    box = PAPER_BOX
+    smallest = partial(_exact_sigma_min, box=box)
+    still, *damped = (_region(bicycle.with_delta(delta), n, box, smallest) for delta in (0.0, *deltas))
+    everywhere, forwards = (_sweep(deltas, still, damped, among, box) for among in _choices(bicycle, n, box))
+    return Damping(
+        designs=n * n,
+        deltas=list(deltas),
+        shown=[delta for delta in SHOWN if delta in deltas],
+        folds_at_lam=_fold_lams(box).tolist(),
+        p0_change=max(float(np.abs(region.p0 - still.p0).max()) for region in damped),
+        unbounded_changed=max(int(np.count_nonzero(r.unbounded != still.unbounded)) for r in damped),
+        everywhere=everywhere,
+        forwards=forwards,
+        single_designs=single_designs(bicycle, deltas),
+    )
 
 
-def _region(bicycle: Bicycle, n: int) -> _Region:
-    table = characteristic_table(bicycle, middles(LAM, n)[:, np.newaxis], middles(SIGMA, n))
+def marked_from(
+    bicycle: Bicycle, n: int, box: DesignBox = PAPER_BOX, deltas: tuple[float, ...] = FEW
+) -> tuple[float | None, float | None]:
+    """The lowest δ [kg m²/s] from which any measure is marked, of all designs and of forks bent forwards.
+
+    None if none is. From n × n designs; smallest trails are found by sampling.
+    """
+    smallest = partial(_sampled_sigma_min, box=box)
+    choices = _choices(bicycle, n, box)
+    still = _region(bicycle.with_delta(0.0), n, box, smallest)
+    damped: list[_Region] = []
+    marked: list[float | None] = [None, None]
+    while None in marked and len(damped) < len(deltas):  # a larger δ changes nothing where one is marked
+        damped.append(_region(bicycle.with_delta(deltas[len(damped)]), n, box, smallest))
+        here = deltas[: len(damped)]
+        marked = [_sweep(here, still, damped, among, box).marked_from for among in choices]
+    return marked[0], marked[1]
+
+
+def _fold_lams(box: DesignBox) -> Floats:
+    return np.array(FOLDS) * box.lam[1]
+
+
+class _Choice(NamedTuple):
+    """Which designs of the grid, and which (λ, σ) in general, are looked at."""
+
+    grid: Flags
+    design: Callable[[float, float], bool]
+
+
+def _choices(bicycle: Bicycle, n: int, box: DesignBox) -> tuple[_Choice, _Choice]:
+    x, y = middles(box.lam, n)[:, np.newaxis], middles(box.sigma, n)
+    forwards = bent_forwards(bicycle, x, y)
+    return (
+        _Choice(np.ones_like(forwards), lambda lam, sigma: True),
+        _Choice(forwards, lambda lam, sigma: bool(bent_forwards(bicycle, lam, sigma))),
+    )
+
+
+Smallest = Callable[[Bicycle], list[float]]
+
+
+def _region(bicycle: Bicycle, n: int, box: DesignBox, smallest: Smallest) -> _Region:
+    table = characteristic_table(bicycle, middles(box.lam, n)[:, np.newaxis], middles(box.sigma, n))
     intervals = intervals_of(table)
-    volume = float(widths(intervals).sum(axis=-1).mean()) * (LAM[1] - LAM[0]) * (SIGMA[1] - SIGMA[0])
-    folds = lowest_stable(Family(bicycle), *SIGMA, x=FOLDS).tolist()
+    weave = intervals.lower[..., 0] == WEAVE
     return _Region(
-        table[0], volume, intervals.lower[..., 0] == WEAVE, intervals.V1[..., 0], has_unbounded(intervals),
-        [None if np.isnan(fold) else fold for fold in folds],
+        p0=table[0],
+        width=widths(intervals).sum(axis=-1),
+        V1=np.where(weave, intervals.V1[..., 0], np.nan),
+        unbounded=has_unbounded(intervals),
+        sigma_min=[None if np.isnan(sigma) else sigma for sigma in smallest(bicycle)],
+    )
+
+
+def _exact_sigma_min(bicycle: Bicycle, box: DesignBox) -> list[float]:
+    """The smallest σ with a stable speed at each λ of FOLDS, NaN where there is none."""
+    return lowest_stable(Family(bicycle), *box.sigma, x=_fold_lams(box)).tolist()
+
+
+def _sampled_sigma_min(bicycle: Bicycle, box: DesignBox) -> list[float]:
+    """As ``_exact_sigma_min``, to 1e-6 of the range, where the stable σ are no less than 1/60 of it."""
+    lam = _fold_lams(box)[:, np.newaxis]
+    low, high = (np.full(lam.shape, end) for end in box.sigma)
+    for _ in range(_ROUNDS):
+        sigma = low + (high - low) * np.linspace(0, 1, _SAMPLES)
+        stable = intervals_of(characteristic_table(bicycle, lam, sigma)).number > 0
+        first = np.argmax(stable, axis=1)[:, np.newaxis]
+        low, high = (np.take_along_axis(sigma, at, axis=1) for at in (np.maximum(first - 1, 0), first))
+        low, high = (np.where(stable.any(axis=1, keepdims=True), end, np.nan) for end in (low, high))
+    return high[:, 0].tolist()
+
+
+def _measures(region: _Region, among: _Choice, box: DesignBox) -> Measures:
+    sigma_min = [
+        sigma if sigma is not None and among.design(lam, sigma) else None
+        for lam, sigma in zip(_fold_lams(box).tolist(), region.sigma_min, strict=True)
+    ]
+    share = region.width[among.grid].sum() / region.width.size
+    return Measures(float(share) * box.area, region.V1[among.grid], sigma_min)
+
+
+def _sweep(
+    deltas: tuple[float, ...], still: _Region, damped: list[_Region], among: _Choice, box: DesignBox
+) -> Sweep:
+    """What is followed of the chosen designs."""
+    without, *rest = (_measures(region, among, box) for region in (still, *damped))
+    changes = [_change(delta, here, without) for delta, here in zip(deltas, rest, strict=True)]
+    measures = {
+        "volume of the stable region": [change.volume_change for change in changes],
+        "V1, median over designs": [change.V1_change_median for change in changes],
+    }
+    for i, lam in enumerate(_fold_lams(box).tolist()):
+        measures[f"smallest stable σ at λ = {lam:g}"] = [change.sigma_min_change[i] for change in changes]
+    measures = {name: values for name, values in measures.items() if values[0] is not None}
+    marked = {
+        name: {key: claims.first_marked(deltas, values, claims.THRESHOLDS[key]) for key in claims.MARKED}
+        for name, values in measures.items()
+    }
+    lowest = {name: by["marked"] for name, by in marked.items()}
+    return Sweep(
+        without.volume, without.sigma_min, changes, marked,
+        verdict_by_measure={name: claims.judge_damping(delta) for name, delta in lowest.items()},
+        marked_from=min((delta for delta in lowest.values() if delta is not None), default=None),
     )  # fmt: skip
 
 
-def _compared(damped: _Region, still: _Region, delta: float) -> Damped:
-    both = still.weave & damped.weave
-    moved = np.abs(damped.V1[both] / still.V1[both] - 1)
-    return Damped(
+def _change(delta: float, damped: Measures, still: Measures) -> Change:
+    moved = np.abs(damped.V1 / still.V1 - 1)
+    moved = moved[np.isfinite(moved)]
+    return Change(
         delta=delta,
         volume=damped.volume,
-        volume_change=_relative(damped.volume, still.volume),
+        volume_change=relative(damped.volume, still.volume),
         V1_change_median=float(np.median(moved)) if moved.size else None,
         V1_change_largest=float(moved.max()) if moved.size else None,
         sigma_min=damped.sigma_min,
         sigma_min_change=[
-            _relative(now, before) for now, before in zip(damped.sigma_min, still.sigma_min, strict=True)
+            relative(now, before) for now, before in zip(damped.sigma_min, still.sigma_min, strict=True)
         ],
-        p0_change=float(np.abs(damped.p0 - still.p0).max()),
-        unbounded_changed=int(np.count_nonzero(damped.unbounded != still.unbounded)),
     )
-
-
-def _relative(now: float | None, before: float | None) -> float | None:
-    return None if not now or not before else now / before - 1
-
-
-def _marked_from(deltas: tuple[float, ...], rows: list[Damped]) -> dict[str, float | None]:
-    measures = {
-        "volume of the stable region": [row.volume_change for row in rows],
-        "V1, median over designs": [row.V1_change_median for row in rows],
-    }
-    for i, lam in enumerate(FOLDS):
-        measures[f"smallest stable σ at λ = {lam:g}"] = [row.sigma_min_change[i] for row in rows]
-    usable = {name: changes for name, changes in measures.items() if changes[0] is not None}
-    return {name: claims.first_marked(list(deltas), changes) for name, changes in usable.items()}
-
-
-def _lowest(marked: dict[str, float | None]) -> float | None:
-    return min((delta for delta in marked.values() if delta is not None), default=None)

@@ -8,7 +8,8 @@ import numpy as np
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
-from bikestab.paper1981.box import LAM, SIGMA, WIDER_LAM, WIDER_SIGMA, Range, Sampling
+from bikestab.paper1981.box import LAM, PAPER_BOX, SIGMA, DesignBox, Sampling
+from bikestab.paper1981.forks import offset
 from bikestab.paper1981.maps import DesignMap, Shares, shares_along_lines
 from bikestab.paper1981.one_design import Interval, eigenvalues, intervals
 from bikestab.paper1981.random_machines import RandomMachines, study_random_machines
@@ -20,23 +21,11 @@ TWO = (0.04834835, 0.15)  # a design with two intervals
 
 
 @dataclass(frozen=True)
-class Box:
-    """Ranges of λ [rad] and σ."""
-
-    lam: Range
-    sigma: Range
-
-
-@dataclass(frozen=True)
 class CountedShares:
     """Shares of a number of designs, counted one by one."""
 
     designs: int
-    none: float
-    some: float
-    finite: float
-    unbounded: float
-    multiple: float
+    shares: Shares
 
 
 @dataclass(frozen=True)
@@ -59,10 +48,14 @@ class CurveAtInfinity:
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A design without upper limit: eigenvalues [1/s] by speed [m/s], and 1/decay [s] of the slowest."""
+    """A design without upper limit: eigenvalues [1/s] by speed [m/s], and 1/decay [s] of the slowest.
+
+    ``offset`` [m] is the fork offset b.
+    """
 
     lam: float
     sigma: float
+    offset: float
     intervals: list[Interval]
     eigenvalues: dict[str, list[list[float]]]
     speeds: list[float]
@@ -88,12 +81,38 @@ class Exceptions:
 
 
 @dataclass(frozen=True)
+class NoUpperLimit:
+    """Above which line in (tan λ, σ) there can be no upper limit, and below which the fork is bent forwards.
+
+    The first is the curve "capsize at infinity", σ = least + slope tan λ, the other σ = slope_forwards tan λ.
+    ``apart`` says that no λ >= 0 is between them.
+    """
+
+    least: float
+    slope: float
+    slope_forwards: float
+    apart: bool
+
+
+@dataclass(frozen=True)
+class Forwards:
+    """The same shares among designs whose fork is bent forwards, and how many these are."""
+
+    shares: Shares
+    shares_wider_box: Shares
+    of_designs: float
+    of_stable: float | None
+    line: NoUpperLimit
+    judged_by: Exceptions
+
+
+@dataclass(frozen=True)
 class FiniteInterval:
     """How many designs have bounded, unbounded, several or no intervals, with counterexamples."""
 
     shares: Shares
     shares_wider_box: Shares
-    wider_box: Box
+    wider_box: DesignBox
     shares_uncertainty: float
     unbounded_of_stable: float | None
     bounded_of_stable: float | None
@@ -104,30 +123,51 @@ class FiniteInterval:
     two_intervals: DesignIntervals
     random_machines: RandomMachines
     judged_by: Exceptions
+    forwards: Forwards
 
 
 def finite_interval(bicycle: Bicycle, designs: DesignMap, sampling: Sampling) -> FiniteInterval:
     """The numbers behind conclusion 1; ``designs`` is the map of the paper's box."""
-    box = shares_along_lines(bicycle, sampling.lines)
-    wider = shares_along_lines(bicycle, sampling.lines, lam=WIDER_LAM, sigma=WIDER_SIGMA)
-    coarser = shares_along_lines(bicycle, sampling.lines // 2)
+    box, box_forwards, of_designs = shares_along_lines(bicycle, sampling.lines)
+    wider, wider_forwards, _ = shares_along_lines(bicycle, sampling.lines, PAPER_BOX.wider)
+    coarser, _, _ = shares_along_lines(bicycle, sampling.lines // 2)
     return FiniteInterval(
         shares=box,
         shares_wider_box=wider,
-        wider_box=Box(WIDER_LAM, WIDER_SIGMA),
+        wider_box=PAPER_BOX.wider,
         shares_uncertainty=max(
             abs(share - other) for share, other in zip(_values(box), _values(coarser), strict=True)
         ),
         unbounded_of_stable=box.unbounded / box.some if box.some else None,
         bounded_of_stable=box.finite / box.some if box.some else None,
-        grid=CountedShares(designs.number.size, *_values(designs.shares)),
+        grid=CountedShares(designs.number.size, designs.shares),
         formula_disagreements=int(np.count_nonzero(designs.formula != designs.unbounded)),
         curves_at_infinity=_curves_at_infinity(bicycle, sampling.picture),
         counterexamples=[_counterexample(bicycle, *design) for design in COUNTEREXAMPLES],
         two_intervals=DesignIntervals(*TWO, intervals(bicycle, *TWO)),
         random_machines=study_random_machines(sampling),
-        judged_by=Exceptions(box.unbounded + box.multiple, wider.unbounded + wider.multiple),
-    )
+        judged_by=exceptions(box, wider),
+        forwards=Forwards(
+            box_forwards, wider_forwards, of_designs,
+            of_stable=box_forwards.some * of_designs / box.some if box.some else None,
+            line=no_upper_limit(bicycle),
+            judged_by=exceptions(box_forwards, wider_forwards),
+        ),
+    )  # fmt: skip
+
+
+def exceptions(box: Shares, wider: Shares) -> Exceptions:
+    """The shares of designs that are not as conclusion 1 has them."""
+    return Exceptions(box.unbounded + box.multiple, wider.unbounded + wider.multiple)
+
+
+def no_upper_limit(bicycle: Bicycle) -> NoUpperLimit:
+    """S > κ h sin λ with κ = C2°/(C1° + C2°), which −α7 > 0 is, in σ and tan λ; needs l > m2 c and wheels."""
+    p = bicycle
+    ahead, h = p.m1 * p.l1 + p.m2 * p.l2 - p.m2 * p.c, p.m1 * p.h1 + p.m2 * p.h2
+    kappa = p.C2 / p.R2 / (p.C1 / p.R1 + p.C2 / p.R2)
+    least, slope = (v / ahead for v in (p.m2 * (p.c - p.l2), kappa * h - p.m2 * p.h2))
+    return NoUpperLimit(least, slope, p.R2 / p.c, apart=least >= 0 and slope >= p.R2 / p.c)
 
 
 def _values(shares: Shares) -> tuple[float, ...]:
@@ -138,7 +178,7 @@ def _counterexample(bicycle: Bicycle, lam: float, sigma: float) -> Counterexampl
     values = {f"{speed:g}": eigenvalues(bicycle, lam, sigma, speed) for speed in FAR}
     slowest = [values[f"{speed:g}"][0][0] for speed in FAR]
     return Counterexample(
-        lam, sigma, intervals(bicycle, lam, sigma), values, list(FAR),
+        lam, sigma, float(offset(bicycle, lam, sigma)), intervals(bicycle, lam, sigma), values, list(FAR),
         stable_far_up=all(rate < 0 for rate in slowest),
         time_constants=[-1 / rate if rate < 0 else None for rate in slowest],
     )  # fmt: skip

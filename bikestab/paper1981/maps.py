@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,8 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import Floats, Model, characteristic_table
-from bikestab.paper1981.box import LAM, SIGMA, Range, V, middles
+from bikestab.paper1981.box import LAM, PAPER_BOX, DesignBox, Range, V, middles
+from bikestab.paper1981.forks import bent_forwards, least_tilt
 from bikestab.region.lines import Line, crossings
 from bikestab.speeds import Intervals, intervals_of
 
@@ -36,7 +38,8 @@ class DesignMap:
 
     ``lam`` (n, 1) [rad] and ``sigma`` (n,); (n, n): ``number`` of stable intervals, whether one is
     ``unbounded``, whether the ``formula`` says so, the ``total`` width [m/s] up to the
-    paper's highest speed, and the width of the ``widest`` interval without any cap.
+    paper's highest speed, and the width of the ``widest`` interval without any cap; whether the fork is bent
+    ``forwards``.
     """
 
     lam: Floats
@@ -46,24 +49,41 @@ class DesignMap:
     formula: Flags
     total: Floats
     widest: Floats
+    forwards: Flags
 
     @property
     def shares(self) -> Shares:
         """The shares of the designs, each of which counts for its cell."""
         return _shares(self.number, self.unbounded, lambda kind: float(kind.mean()))
 
+    @property
+    def shares_forwards(self) -> Shares:
+        """The shares among the designs whose fork is bent forwards."""
+        among = self.forwards
+        return _shares(self.number, self.unbounded, lambda kind: _mean(kind[among]))
+
+    @property
+    def widest_forwards(self) -> Floats:
+        """``widest``, 0 for forks bent backwards."""
+        return np.where(self.forwards, self.widest, 0)
+
+
+def _mean(kind: Flags) -> float:
+    return float(kind.mean()) if kind.size else 0.0
+
 
 def map_designs(
-    bicycle: Bicycle, n: int, *, lam: Range = LAM, sigma: Range = SIGMA, model: Model = "refined"
+    bicycle: Bicycle, n: int, box: DesignBox = PAPER_BOX, *, model: Model = "refined"
 ) -> DesignMap:
     """The map of n × n designs of a box."""
-    x, y = middles(lam, n)[:, np.newaxis], middles(sigma, n)
+    x, y = middles(box.lam, n)[:, np.newaxis], middles(box.sigma, n)
     rows = max(_DESIGNS // n, 1)
     parts = [
         _stable_speeds(characteristic_table(bicycle, x[i : i + rows], y, model=model))
         for i in range(0, n, rows)
     ]
-    return DesignMap(x, y, *(np.concatenate(values) for values in zip(*parts, strict=True)))
+    number, unbounded, formula, total, widest = (np.concatenate(of) for of in zip(*parts, strict=True))
+    return DesignMap(x, y, number, unbounded, formula, total, widest, bent_forwards(bicycle, x, y))
 
 
 def _stable_speeds(
@@ -95,22 +115,34 @@ def stable_at_high_speed(table: Floats) -> Flags:
     return (a0 > 0) & (a1 > 0) & (a4 > 0) & (minus_a7 > 0) & (a1 * a2 > a0 * a4)
 
 
-def region_volume(designs: DesignMap) -> float:
-    """The volume [rad m/s] of the stable region in the paper's box, from exact widths."""
-    return float(designs.total.mean()) * (LAM[1] - LAM[0]) * (SIGMA[1] - SIGMA[0])
+def region_volume(designs: DesignMap, box: DesignBox = PAPER_BOX) -> float:
+    """The volume [rad m/s] of the stable region in the box of a map, from exact widths."""
+    return float(designs.total.mean()) * box.area
 
 
 def shares_along_lines(
-    bicycle: Bicycle, lines: int, *, lam: Range = LAM, sigma: Range = SIGMA, model: Model = "refined"
-) -> Shares:
-    """The shares of designs from the exact ends of each kind along λ on lines of constant σ."""
-    line = Line(Family(bicycle, model), None, middles(sigma, lines))
-    cuts = crossings(line, *lam)
+    bicycle: Bicycle, lines: int, box: DesignBox = PAPER_BOX
+) -> tuple[Shares, Shares, float]:
+    """The shares of designs from the exact ends of each kind along λ on lines of constant σ.
+
+    Those of all designs, those among designs whose fork is bent forwards, and the share of these.
+    """
+    sigma = middles(box.sigma, lines)
+    line = Line(Family(bicycle), None, sigma)
+    cuts = crossings(line, *box.lam)
     between = intervals_of(line.table(0.5 * (cuts[:, 1:] + cuts[:, :-1])))
-    length = np.diff(cuts, axis=1) / (lam[1] - lam[0])
-    return _shares(
-        between.number, has_unbounded(between), lambda kind: float((kind * length).sum(axis=1).mean())
+    length = np.diff(cuts, axis=1)
+    forwards = np.diff(np.maximum(cuts, least_tilt(bicycle, sigma)[:, np.newaxis]), axis=1)
+    everywhere, among_forwards = (
+        _shares(between.number, has_unbounded(between), partial(_weighted, weight=weight))
+        for weight in (length, forwards)
     )
+    return everywhere, among_forwards, float(forwards.sum() / length.sum())
+
+
+def _weighted(kind: Flags, weight: Floats) -> float:
+    whole = float(weight.sum())
+    return float((kind * weight).sum()) / whole if whole else 0.0
 
 
 def _shares(number: NDArray[np.intp], unbounded: Flags, share: Callable[[Flags], float]) -> Shares:

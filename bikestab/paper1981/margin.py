@@ -12,7 +12,9 @@ from bikestab.design import criteria
 from bikestab.design.best import Best, Design, best_designs
 from bikestab.design.criteria import Wanted
 from bikestab.family import Family
-from bikestab.paper1981.box import LAM, SIGMA, Range, V
+from bikestab.model import Floats
+from bikestab.paper1981.box import LAM, PAPER_BOX, SIGMA, DesignBox, Range, V
+from bikestab.paper1981.forks import bent_forwards, offset
 
 JUDGED: dict[str, Range | None] = {
     "at each design's best speed": None,
@@ -35,11 +37,33 @@ class Apart:
 
 
 @dataclass(frozen=True)
+class GridOptimum:
+    """The best of a grid of designs by one criterion: fork offset [m], width [m/s] and growth rate [1/s]."""
+
+    criterion: str
+    lam: float
+    sigma: float
+    offset: float
+    width: float
+    growth_rate: float
+
+
+@dataclass(frozen=True)
+class GridMargin:
+    """The best of a grid of designs by width and by decay."""
+
+    designs: int
+    optima: list[GridOptimum]
+    judged_by: Apart
+
+
+@dataclass(frozen=True)
 class Margin:
-    """The best designs by width and by decay."""
+    """The best designs by width and by decay, of all and of those whose fork is bent forwards."""
 
     optima: list[Optimum]
     judged_by: Apart
+    forwards: GridMargin
 
 
 @cache
@@ -62,21 +86,40 @@ def margin(bicycle: Bicycle, grid: int) -> Margin:
             optima.append({"criterion": "widest interval", **best.widest})
         if best.fastest_decay:
             optima.append({"criterion": f"fastest decay {words}", **best.fastest_decay})
-    if not optima:
-        return Margin([], Apart(None))
-    (x1, y1), (x2, y2) = ((optimum["lam"], optimum["sigma"]) for optimum in optima[:2])
-    return Margin(optima, Apart(_sides_apart(x1, y1, x2, y2)))
+    designs = [(optimum["lam"], optimum["sigma"]) for optimum in optima[:2]]
+    _, forwards = margins_on_grid(bicycle, grid)
+    return Margin(optima, Apart(_sides_apart(designs, PAPER_BOX)), forwards)
 
 
-def apart_on_grid(bicycle: Bicycle, n: int) -> float | None:
-    """How far the widest and the fastest decaying of n × n designs are apart, in sides of the box."""
-    x = np.stack(np.meshgrid(np.linspace(*LAM, n), np.linspace(*SIGMA, n), indexing="ij")).reshape(2, -1)
-    width, growth = criteria.width_and_decay(whole_box(bicycle), x)
-    if not width.max() > 0:
+def margins_on_grid(bicycle: Bicycle, n: int, box: DesignBox = PAPER_BOX) -> tuple[GridMargin, GridMargin]:
+    """The best of n × n designs of a box, and the best of those whose fork is bent forwards."""
+    x = np.stack(np.meshgrid(np.linspace(*box.lam, n), np.linspace(*box.sigma, n), indexing="ij"))
+    x = x.reshape(2, -1)
+    width, growth = criteria.width_and_decay(Wanted(Family(bicycle), box.lam, box.sigma, V_max=V[1]), x)
+    everywhere, forwards = (
+        _grid_margin(bicycle, x[:, chosen], width[chosen], growth[chosen], box)
+        for chosen in (slice(None), bent_forwards(bicycle, *x))
+    )
+    return everywhere, forwards
+
+
+def _grid_margin(bicycle: Bicycle, x: Floats, width: Floats, growth: Floats, box: DesignBox) -> GridMargin:
+    stable = np.flatnonzero(width > 0)
+    best = {
+        "widest interval": stable[np.argmax(width[stable])],
+        "fastest decay at each design's best speed": stable[np.argmin(growth[stable])],
+    } if len(stable) else {}  # fmt: skip
+    b = offset(bicycle, *x)
+    optima = [
+        GridOptimum(words, *(float(values[k]) for values in (*x, b, width, growth)))
+        for words, k in best.items()
+    ]
+    return GridMargin(len(width), optima, Apart(_sides_apart([(o.lam, o.sigma) for o in optima], box)))
+
+
+def _sides_apart(designs: list[tuple[float, float]], box: DesignBox) -> float | None:
+    """How far two designs are apart along λ or σ, in sides of the box; None without designs."""
+    if not designs:
         return None
-    widest, fastest = np.argmax(width), np.argmin(np.where(width > 0, growth, np.inf))
-    return _sides_apart(*x[:, widest].tolist(), *x[:, fastest].tolist())
-
-
-def _sides_apart(lam: float, sigma: float, other_lam: float, other_sigma: float) -> float:
-    return max(abs(lam - other_lam) / (LAM[1] - LAM[0]), abs(sigma - other_sigma) / (SIGMA[1] - SIGMA[0]))
+    lam, sigma = np.ptp(designs, axis=0)
+    return float(max(lam / np.ptp(box.lam), sigma / np.ptp(box.sigma)))

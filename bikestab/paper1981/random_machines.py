@@ -9,7 +9,24 @@ import numpy as np
 
 from bikestab.bicycle import Bicycle
 from bikestab.paper1981.box import Sampling
-from bikestab.paper1981.maps import map_designs
+from bikestab.paper1981.forks import offset
+from bikestab.paper1981.maps import DesignMap, map_designs
+from bikestab.paper1981.one_design import eigenvalues, intervals
+
+
+@dataclass(frozen=True)
+class Example:
+    """A design of the machine of this number, its fork offset b [m], without upper limit above V1 [m/s].
+
+    ``growth_rate`` [1/s] is that at 100 m/s, by a general solver.
+    """
+
+    number: int
+    lam: float
+    sigma: float
+    offset: float
+    V1: float
+    growth_rate: float
 
 
 @dataclass(frozen=True)
@@ -25,14 +42,22 @@ class RandomMachines:
     stable_designs: float
     unbounded_designs: float
     formula_disagreements: int
+    forwards_of_designs: float
+    with_stable_forwards: float
+    with_unbounded_forwards: float
+    unbounded_designs_forwards: int
+    example_forwards: Example | None
 
 
 def study_random_machines(sampling: Sampling) -> RandomMachines:
     """The stable speeds of random machines over the paper's box."""
-    maps = [map_designs(machine, sampling.grid_machines) for machine in random_machines(sampling.machines)]
+    machines = list(random_machines(sampling.machines))
+    maps = [map_designs(machine, sampling.grid_machines) for machine in machines]
     stable = np.array([(designs.number > 0).mean() for designs in maps])
     unbounded = np.array([designs.unbounded.mean() for designs in maps])
     several = np.array([(designs.number > 1).mean() for designs in maps])
+    stable_forwards = [bool(((designs.number > 0) & designs.forwards).any()) for designs in maps]
+    both = [int(np.count_nonzero(designs.unbounded & designs.forwards)) for designs in maps]
     return RandomMachines(
         machines=sampling.machines,
         designs_each=sampling.grid_machines**2,
@@ -45,7 +70,24 @@ def study_random_machines(sampling: Sampling) -> RandomMachines:
         formula_disagreements=int(
             sum(np.count_nonzero(designs.formula != designs.unbounded) for designs in maps)
         ),
+        forwards_of_designs=float(np.mean([designs.forwards.mean() for designs in maps])),
+        with_stable_forwards=float(np.mean(stable_forwards)),
+        with_unbounded_forwards=float(np.mean(np.array(both) > 0)),
+        unbounded_designs_forwards=sum(both),
+        example_forwards=_example(machines, maps),
     )
+
+
+def _example(machines: list[Bicycle], maps: list[DesignMap]) -> Example | None:
+    """The first design without upper limit whose fork is bent forwards."""
+    for number, (machine, designs) in enumerate(zip(machines, maps, strict=True), 1):
+        where = np.argwhere(designs.unbounded & designs.forwards)
+        if len(where):
+            lam, sigma = float(designs.lam[where[0, 0], 0]), float(designs.sigma[where[0, 1]])
+            ((rate, _), *_) = eigenvalues(machine, lam, sigma, 100.0)
+            V1 = intervals(machine, lam, sigma)[-1].V1
+            return Example(number, lam, sigma, float(offset(machine, lam, sigma)), V1, rate)
+    return None
 
 
 def random_machines(number: int, seed: int = 1981) -> Iterator[Bicycle]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import MODELS, Floats, Model, characteristic_table, coefficients
-from bikestab.paper1981.box import LAM, SIGMA, WIDER_LAM, WIDER_SIGMA, Sampling, V, middles
+from bikestab.paper1981.box import LAM, PAPER_BOX, SIGMA, Sampling, V, middles
 from bikestab.paper1981.maps import DesignMap, Shares, map_designs, region_volume
 from bikestab.roots import positive_roots
 from bikestab.routh import condition_polynomials
@@ -135,7 +135,7 @@ def _causes(bicycle: Bicycle, table: Floats, model: Model, x: Floats, y: Floats)
 
 def _beyond(bicycle: Bicycle, model: Model, n: int) -> Beyond:
     without, with_damper = (
-        1 - map_designs(machine, n, lam=WIDER_LAM, sigma=WIDER_SIGMA, model=model).shares.none
+        1 - map_designs(machine, n, PAPER_BOX.wider, model=model).shares.none
         for machine in (bicycle, bicycle.with_delta(_DAMPER))
     )
     return Beyond(without, with_damper, _DAMPER)

@@ -4,29 +4,32 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from bikestab.paper1981.machine_tables import motorcycle_tables, readings_tables
 from bikestab.paper1981.study import Study
 from bikestab.paper1981.tables import (
-    Tables,
     damping_tables,
     designs_table,
     finite_interval_tables,
     margin_tables,
-    readings_tables,
     refinement_tables,
     widening_tables,
 )  # fmt: skip
-from bikestab.paper1981.words import Words, listed, table
+from bikestab.paper1981.words import Tables, Words, listed, table
 
 _TEXTS = Path(__file__).with_name("texts")
 _SECTIONS = (
     "opening", "figure3", "refinement", "conclusion1", "conclusion2", "conclusion3", "conclusion4",
-    "readings", "method",
+    "readings", "motorcycle", "literature", "method",
 )  # fmt: skip
 _DECISIVE = {  # the numbers that decide about each conclusion
-    1: "no upper limit for {shares.unbounded:3p} of the designs, {unbounded_of_stable:3p} of the stable",
-    2: "right from σ = {sigma_from:.3f} on, to an optimum λ; no stability below {limits.lam_min:.4f} rad",
-    3: "widest interval at λ = {optima[0][lam]:.3f} rad, fastest decay at {optima[1][lam]:.3f} rad",
-    4: "V2 never moves, the region does, markedly from δ = {judged_by.marked_from:.3f} kg m²/s on",
+    1: "no upper limit for {shares.unbounded:3p} of the designs, {unbounded_of_stable:3p} of the stable, "
+    "{forwards.shares.unbounded:3p} of those with b ≥ 0",
+    2: "right from σ = {sigma_from:.3f} on, to an optimum λ; no stability below {limits.lam_min:.4f} rad; "
+    "with b ≥ 0 the widest is at λ = {forwards.widest_lam:.3f} rad",
+    3: "widest interval at λ = {optima[0][lam]:.3f} rad, fastest decay at {optima[1][lam]:.3f} rad; "
+    "with b ≥ 0 at {forwards.optima[0].lam:.3f} and {forwards.optima[1].lam:.3f} rad",
+    4: "V2 moves only where it is weave; the region does, markedly from δ = {everywhere.marked_from:.3f} "
+    "kg m²/s on, with b ≥ 0 from {forwards.marked_from:.3f}",
 }
 
 
@@ -52,11 +55,15 @@ def decisive_numbers(study: Study, conclusion: int) -> str:
 def _tables(study: Study) -> Tables:
     conclusions = study.conclusions
     verdicts = [
-        [str(number), judged.claim, f"**{judged.verdict}**", decisive_numbers(study, number)]
+        [
+            str(number), judged.claim, f"**{judged.verdict}**", f"**{judged.verdict_forwards}**",
+            decisive_numbers(study, number),
+        ]
         for number, judged in conclusions.by_number().items()
-    ]
+    ]  # fmt: skip
+    head = ["", "claim of the paper", "verdict", "verdict, forks bent forwards", "key numbers"]
     return {
-        "verdicts": table(["", "claim of the paper", "verdict", "key numbers"], verdicts),
+        "verdicts": table(head, verdicts),
         "parameters": ", ".join(f"{name} = {value:g}" for name, value in study.bicycle.items()),
         "warnings": "; ".join(study.warnings) or "no",
         "family_lam": listed(study.figure3.lam),
@@ -68,4 +75,5 @@ def _tables(study: Study) -> Tables:
         **margin_tables(conclusions.margin.numbers),
         **damping_tables(conclusions.damping.numbers),
         **readings_tables(study.sensitivity),
+        **motorcycle_tables(study.motorcycle),
     }

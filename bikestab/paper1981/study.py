@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass
 from typing import Any, Generic, TypeVar
 
 from bikestab import __version__
 from bikestab.bicycle import Bicycle
 from bikestab.paper1981 import claims
+from bikestab.paper1981.any_machine import judge_trends
 from bikestab.paper1981.box import FULL, LAM, SIGMA, Range, Sampling, V
 from bikestab.paper1981.claims import Verdict
 from bikestab.paper1981.damping import Damping, damping
 from bikestab.paper1981.finite_interval import DesignIntervals, FiniteInterval, finite_interval
+from bikestab.paper1981.forks import offset
 from bikestab.paper1981.maps import map_designs
 from bikestab.paper1981.margin import Margin, margin
+from bikestab.paper1981.motorcycle import Motorcycle, judge_motorcycle
 from bikestab.paper1981.one_design import intervals
 from bikestab.paper1981.readings import Readings, judge_readings
 from bikestab.paper1981.refinement import Refinement, refinement
@@ -33,6 +36,7 @@ FIGURES = {
     "conclusion3.png": "the best designs",
     "conclusion4.png": "the boundaries against damping",
 }
+BUILT = ("meijaard2007", "sharp1971")  # presets with a tilt and a trail of their own
 Progress = Callable[[str], None]
 T = TypeVar("T")
 
@@ -58,11 +62,15 @@ class Figure3:
 
 @dataclass(frozen=True)
 class Judged(Generic[T]):
-    """A claim, the rule it is judged by, the verdict, and the numbers that it is drawn from."""
+    """A claim, the rule it is judged by, the verdicts, and the numbers that they are drawn from.
+
+    The second verdict is by the same rule on forks that are bent forwards, b >= 0.
+    """
 
     claim: str
     rule: str
     verdict: Verdict
+    verdict_forwards: Verdict
     numbers: T
 
 
@@ -82,7 +90,7 @@ class Conclusions:
 
 @dataclass(frozen=True)
 class Study:
-    """All numbers of the report."""
+    """All numbers of the report; ``built`` has the fork offset b [m] of other machines as they are built."""
 
     bikestab: str
     source: str
@@ -94,8 +102,10 @@ class Study:
     figures: dict[str, str]
     figure3: Figure3
     refinement: Refinement
+    built: dict[str, float]
     conclusions: Conclusions
     sensitivity: Readings
+    motorcycle: Motorcycle
 
 
 def study(bicycle: Bicycle, sampling: Sampling = FULL, progress: Progress = lambda words: None) -> Study:
@@ -113,6 +123,8 @@ def study(bicycle: Bicycle, sampling: Sampling = FULL, progress: Progress = lamb
     damped = damping(bicycle, sampling.grid_damping)
     progress("other readings of the printed values")
     doubtful = judge_readings(bicycle, sampling)
+    progress("a motorcycle")
+    motorcycle = judge_motorcycle(sampling.grid_readings)
     return Study(
         bikestab=__version__,
         source=bicycle.source,
@@ -124,9 +136,16 @@ def study(bicycle: Bicycle, sampling: Sampling = FULL, progress: Progress = lamb
         figures=FIGURES,
         figure3=_figure3(bicycle),
         refinement=refined,
+        built={name: _own_offset(name) for name in BUILT},
         conclusions=_judged(finite, wide, best, damped),
         sensitivity=doubtful,
+        motorcycle=motorcycle,
     )
+
+
+def _own_offset(name: str) -> float:
+    machine = Bicycle.preset(name)
+    return float(offset(machine, machine.lam, machine.sigma))
 
 
 def _figure3(bicycle: Bicycle) -> Figure3:
@@ -139,18 +158,17 @@ def _figure3(bicycle: Bicycle) -> Figure3:
 
 
 def _judged(finite: FiniteInterval, wide: Widening, best: Margin, damped: Damping) -> Conclusions:
-    verdicts = (
-        claims.judge_finite(**asdict(finite.judged_by)),
-        claims.judge_widening(wide.larger_sigma_widens, wide.sigma_from, wide.reaches_zero),
-        claims.judge_margin(**asdict(best.judged_by)),
-        claims.judge_damping(**asdict(damped.judged_by)),
-    )
-    parts: tuple[Any, ...] = (finite, wide, best, damped)
+    def judged(number: int, numbers: T, everywhere: Verdict, forwards: Verdict) -> Judged[T]:
+        return Judged(claims.CLAIMS[number], claims.RULES[number], everywhere, forwards, numbers)
+
+    exceptions = finite.judged_by, finite.forwards.judged_by
     return Conclusions(
-        *(
-            Judged(claims.CLAIMS[number], claims.RULES[number], verdict, numbers)
-            for number, (verdict, numbers) in enumerate(zip(verdicts, parts, strict=True), 1)
-        )
+        judged(1, finite, *(claims.judge_finite(found.in_box, found.beyond) for found in exceptions)),
+        judged(2, wide, judge_trends(wide), judge_trends(wide.forwards)),
+        judged(3, best, *(claims.judge_margin(m.judged_by.apart) for m in (best, best.forwards))),
+        judged(
+            4, damped, *(claims.judge_damping(s.marked_from) for s in (damped.everywhere, damped.forwards))
+        ),
     )
 
 

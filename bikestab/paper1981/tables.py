@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from bikestab.paper1981.claims import FAILS, HOLDS, LIMITS, VERDICTS
-from bikestab.paper1981.damping import Damping
+from bikestab.paper1981.claims import MARKED, THRESHOLDS
+from bikestab.paper1981.damping import Change, Damping, Sweep
 from bikestab.paper1981.finite_interval import CurveEnd, DesignIntervals, FiniteInterval
 from bikestab.paper1981.margin import Margin
-from bikestab.paper1981.readings import Readings
 from bikestab.paper1981.refinement import Refinement
 from bikestab.paper1981.widening import Widening
 from bikestab.paper1981.words import (
+    Tables,
     complex_number,
     from_delta,
     interval,
@@ -21,7 +21,6 @@ from bikestab.paper1981.words import (
     table,
 )  # fmt: skip
 
-_SIGNS = {HOLDS: "+", LIMITS: "±", FAILS: "−"}
 _MODELS = {  # rows of the table that compares them: key and format
     "volume of the stable region [rad m/s]": ("volume", ".6f"),
     "its share of the box": ("volume_share", "3p"),
@@ -35,7 +34,6 @@ _SHARES = {
     "no stable speed": "none", "bounded intervals only": "finite", "an unbounded interval": "unbounded",
     "more than one interval": "multiple",
 }  # fmt: skip
-Tables = dict[str, str]
 
 
 def designs_table(designs: list[DesignIntervals]) -> str:
@@ -65,20 +63,21 @@ def refinement_tables(r: Refinement) -> Tables:
 
 def finite_interval_tables(n: FiniteInterval) -> Tables:
     """Shares of designs, counterexamples and curves at infinity."""
-    boxes = (n.shares, n.shares_wider_box)
-    shares = [[words, *(number(getattr(box, key), "4p") for box in boxes)] for words, key in _SHARES.items()]
+    kinds = (n.shares, n.shares_wider_box, n.forwards.shares, n.forwards.shares_wider_box)
+    shares = [[words, *(number(getattr(of, key), "4p") for of in kinds)] for words, key in _SHARES.items()]
     examples = [
         [
-            f"{e.lam:g}", f"{e.sigma:g}", intervals(e.intervals), V,
+            f"{e.lam:g}", f"{e.sigma:g}", number(e.offset, ".3f"), intervals(e.intervals), V,
             ", ".join(map(complex_number, values)),
         ]
         for e in n.counterexamples
         for V, values in e.eigenvalues.items()
     ]  # fmt: skip
     curves = [[f"*{c.name}*", _end(c.start), _end(c.stop)] for c in n.curves_at_infinity]
-    head = ["λ [rad]", "σ", "stable speeds [m/s]", "at V [m/s]", "eigenvalues"]
+    head = ["λ [rad]", "σ", "b [m]", "stable speeds [m/s]", "at V [m/s]", "eigenvalues"]
+    columns = ["the paper's box", "wider box", "the paper's, b ≥ 0", "wider, b ≥ 0"]
     return {
-        "shares": table(["", "the paper's box", "wider box"], shares),
+        "shares": table(["", *columns], shares),
         "counterexamples": table(head, examples),
         "curves": table(["curve", "from", "to"], curves),
         "two_intervals": intervals(n.two_intervals.intervals, between=" and "),
@@ -122,56 +121,52 @@ def margin_tables(n: Margin) -> Tables:
         for d in n.optima
     ]  # fmt: skip
     head = ["margin", "λ [rad]", "σ", "stable speeds [m/s]", "width [m/s]"]
-    return {"optima": table([*head, "growth rate [1/s]", "at V [m/s]", "where"], rows)}
+    forwards = [
+        [
+            d.criterion, number(d.lam, ".4f"), number(d.sigma, ".4f"), number(d.offset, ".4f"),
+            number(d.width, ".3f"), number(d.growth_rate, ".4f"),
+        ]
+        for d in n.forwards.optima
+    ]  # fmt: skip
+    columns = ["margin, b ≥ 0", "λ [rad]", "σ", "b [m]", "width [m/s]", "growth rate [1/s]"]
+    return {
+        "optima": table([*head, "growth rate [1/s]", "at V [m/s]", "where"], rows),
+        "optima_forwards": table(columns, forwards),
+    }
 
 
 def damping_tables(n: Damping) -> Tables:
     """The sweep over δ, from where each measure is marked, and single designs."""
-    sweep = [
-        [
-            f"{row.delta:g}", number(row.volume_change, "3p"), number(row.V1_change_median, "3p"),
-            number(row.V1_change_largest, "3p"), *(number(change, "3p") for change in row.sigma_min_change),
-        ]
-        for row in n.sweep
-        if row.delta in n.shown
-    ]  # fmt: skip
     folds = [f"smallest stable σ at λ = {lam:g}" for lam in n.folds_at_lam]
-    marked = [[name, from_delta(at), n.verdict_by_measure[name]] for name, at in n.marked_from.items()]
     single = []
     for d in n.single_designs:
         by_delta = {row.delta: row for row in d.sweep}
         cells = [short_interval(d.without), *(short_interval(by_delta[delta]) for delta in n.shown)]
-        last = from_delta(d.marked_from) if d.without.V1 else "–"
-        single.append([f"{d.lam:g}", f"{d.sigma:g}", *cells, last])
+        marked = [from_delta(d.V1_marked_from) if d.without.V1 else "–"]
+        marked += [from_delta(d.V2_marked_from) if d.without.V2 else "–"]
+        single.append([f"{d.lam:g}", f"{d.sigma:g}", *cells, *marked])
     values = [f"δ = {delta:g}" for delta in (0, *n.shown)]
     return {
-        "sweep": table(["δ [kg m²/s]", "volume", "V1, median", "V1, largest change", *folds], sweep),
-        "marked": table(["measure", "marked from δ [kg m²/s]", "verdict by it alone"], marked),
-        "single": table(["λ [rad]", "σ", *values, "V1 marked from δ"], single),
+        "sweep": table(
+            ["δ [kg m²/s]", "volume", "V1, median", "V1, largest change", *folds],
+            [_change(row) for row in n.everywhere.changes if row.delta in n.shown],
+        ),
+        "marked": _marked(n.everywhere),
+        "marked_forwards": _marked(n.forwards),
+        "single": table(["λ [rad]", "σ", *values, "V1 marked from δ", "V2 marked from δ"], single),
     }
 
 
-def readings_tables(s: Readings) -> Tables:
-    """How many readings give which verdict, and each reading."""
-    counts = [
-        [f"conclusion {key}", *(str(count[verdict]) for verdict in VERDICTS)]
-        for key, count in s.counts.items()
-    ]
+def _change(row: Change) -> list[str]:
+    shares = (row.volume_change, row.V1_change_median, row.V1_change_largest, *row.sigma_min_change)
+    return [f"{row.delta:g}", *(number(share, "3p") for share in shares)]
+
+
+def _marked(sweep: Sweep) -> str:
+    """From which δ each measure is marked, by what counts as marked."""
+    head = ["measure", *(f"{number(THRESHOLDS[key], '3p')} from δ" for key in MARKED), "verdict by it alone"]
     rows = [
-        [
-            row.reading, "yes" if row.rigid else "no", number(row.shares.some, "3p"),
-            number(row.shares.unbounded, "3p"), number(row.shares_wider_box.unbounded, "3p"),
-            number(row.volume, ".4f"), *(_SIGNS[verdict] for verdict in row.verdicts.values()),
-        ]
-        for row in s.readings
-    ]  # fmt: skip
-    head = ["reading", "rigid", "stable", "unbounded", "unbounded, wider box", "volume [rad m/s]"]
-    firm = [key for key, count in s.counts.items() if max(count.values()) == s.number]
-    exceptions = [row.reading for row in s.readings if row.verdicts["1"] != FAILS]
-    return {
-        "counts": table(["", *VERDICTS], counts),
-        "readings": table([*head, *s.counts], rows),
-        "firm": listed(firm) or "none",
-        "open": listed([key for key in s.counts if key not in firm]) or "none",
-        "exceptions": "; ".join(exceptions) or "none",
-    }
+        [name, *(from_delta(by[key]) for key in MARKED), sweep.verdict_by_measure[name]]
+        for name, by in sweep.marked_by_measure.items()
+    ]
+    return table(head, rows)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import Floats, characteristic_table
+from bikestab.paper1981 import claims
 from bikestab.paper1981.box import LAM, SIGMA, Range, V
 from bikestab.paper1981.maps import DesignMap, unbounded_ranges, widths
 from bikestab.region.lines import lowest_stable, stable_ranges
@@ -25,7 +26,8 @@ _TIE = 1e-9  # m/s: widths closer than that are equal
 class Trends:
     """How the width of the widest interval changes between neighbouring designs of a map.
 
-    Shares of the steps that do not narrow it, and the σ from which a smaller λ widens it to the end.
+    Shares of the steps that do not narrow it, the σ from which a smaller λ widens it to the end, and the
+    design with the widest interval of all, of equally wide ones that with the largest λ.
     """
 
     designs: int
@@ -34,6 +36,9 @@ class Trends:
     sigma_from: float | None
     sigma_step: float
     reaches_zero: bool
+    widest_lam: float | None
+    widest_sigma: float | None
+    widest_at_largest_lam: bool
 
 
 @dataclass(frozen=True)
@@ -81,21 +86,29 @@ class Widening(Trends):
 
     limits: Limits
     lines: Lines
+    forwards: Trends
 
 
 def widening(bicycle: Bicycle, designs: DesignMap, steps: int) -> Widening:
     """The numbers behind conclusion 2; ``steps`` designs on each line."""
     return Widening(
-        **vars(trends(designs)), limits=smallest_tilt(bicycle), lines=widths_along_lines(bicycle, steps)
+        **vars(trends(designs, designs.widest)),
+        limits=smallest_tilt(bicycle),
+        lines=widths_along_lines(bicycle, steps),
+        forwards=trends(designs, designs.widest_forwards),
     )
 
 
-def trends(designs: DesignMap) -> Trends:
-    """The trends on a map; two unbounded intervals are equally wide, and steps between them do not count."""
-    W = designs.widest
+def trends(designs: DesignMap, W: Floats) -> Trends:
+    """The trends of widths W on a map, 0 for designs that do not count.
+
+    Two unbounded intervals are equally wide, and steps between them do not count.
+    """
     best = len(W) - 1 - np.argmax(W[::-1], axis=0)  # of equally wide ones that with the largest tilt
     good = [W[k, j] > 0 and _falls(W[k:, j]) for j, k in enumerate(best.tolist())]
-    first = next((j for j in range(len(good)) if all(good[j:])), None)
+    last = int(np.flatnonzero(W.any(axis=0))[-1]) if W.any() else -1  # σ above it have no stable design
+    first = next((j for j in range(last + 1) if all(good[j : last + 1])), None)
+    i, j = np.unravel_index(W.size - 1 - np.argmax(W[::-1, ::-1]), W.shape)
     return Trends(
         designs=W.size,
         larger_sigma_widens=_share_not_narrowed(W[:, :-1], W[:, 1:]),
@@ -103,6 +116,9 @@ def trends(designs: DesignMap) -> Trends:
         sigma_from=None if first is None else float(designs.sigma[first]),
         sigma_step=float(designs.sigma[1] - designs.sigma[0]),
         reaches_zero=first is not None and bool(np.all(W[0, first:] >= W.max(axis=0)[first:])),
+        widest_lam=float(designs.lam[i, 0]) if W.any() else None,
+        widest_sigma=float(designs.sigma[j]) if W.any() else None,
+        widest_at_largest_lam=bool(W.any() and i >= (1 - claims.THRESHOLDS["one_optimum"]) * len(W)),
     )
 
 

@@ -8,6 +8,8 @@ from typing import Any, Protocol
 
 from bikestab.paper1981.one_design import Interval
 
+Tables = dict[str, str]  # Markdown by the name that the texts have for it
+
 
 class Ends(Protocol):
     """V1 and V2 [m/s] of an interval; without an upper limit V2 is None, without speeds both."""
@@ -35,6 +37,10 @@ class Words(string.Formatter):
         try:
             return super().get_field(field_name, args, kwargs)
         except (IndexError, TypeError):
+            return None, field_name
+        except AttributeError as error:
+            if error.obj is not None:
+                raise
             return None, field_name
 
 

@@ -20,13 +20,16 @@ from bikestab_cli.options import NAME
     help="Where the report goes.",
 )
 @click.option(
-    "--quick", is_flag=True, help="Coarser grids: the same verdicts from fewer designs, in seconds."
+    "--quick",
+    is_flag=True,
+    help="Coarser grids: the same questions, asked of fewer designs and random machines.",
 )
 def command(output: str, quick: bool) -> None:
     """Compute the 1981 paper again and judge it.
 
     Draws its figure 3, compares its refined equations with the unrefined ones, judges each of its four
-    conclusions by numbers, and tries other readings of its doubtful values.
+    conclusions by numbers, for all designs and for forks bent forwards, tries other readings of its doubtful
+    values, and a motorcycle.
 
     Writes figures, report.md for readers and report.json for programs. The exit code is 0 whatever the
     verdicts are.
@@ -45,5 +48,6 @@ def command(output: str, quick: bool) -> None:
 
     study = reproduce(output, sampling=QUICK if quick else FULL, progress=progress)
     for number, judged in study.conclusions.by_number().items():
-        click.echo(f"conclusion {number}: {judged.verdict}: {decisive_numbers(study, number)}")
+        verdicts = f"{judged.verdict} (forks bent forwards: {judged.verdict_forwards})"
+        click.echo(f"conclusion {number}: {verdicts}: {decisive_numbers(study, number)}")
     click.echo(f"report: {Path(output) / 'report.md'}")

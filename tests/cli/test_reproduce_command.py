@@ -41,10 +41,12 @@ def test_one_line_for_each_conclusion(run, tmp_path):
     assert (code, err, sizes) == (0, "", [FULL])
     lines = out.splitlines()
     assert len(lines) == 5
-    assert lines[0].startswith("conclusion 1: does not hold: no upper limit for 3.")
-    assert lines[1].startswith("conclusion 2: holds with limits: ")
-    assert lines[2].startswith("conclusion 3: holds with limits: ")
-    assert lines[3].startswith("conclusion 4: does not hold: ")
+    assert lines[0].startswith(
+        "conclusion 1: does not hold (forks bent forwards: holds): no upper limit for 3."
+    )
+    assert lines[1].startswith("conclusion 2: holds with limits (forks bent forwards: does not hold): ")
+    assert lines[2].startswith("conclusion 3: holds with limits (forks bent forwards: holds): ")
+    assert lines[3].startswith("conclusion 4: does not hold (forks bent forwards: does not hold): ")
     assert lines[4] == "report: out/reproduce/report.md"
     assert (tmp_path / "out/reproduce/report.md").is_file()
 

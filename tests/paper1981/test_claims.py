@@ -9,6 +9,8 @@ from tests.small import study
 def test_verdicts():
     verdicts = [part["verdict"] for part in study()["conclusions"].values()]
     assert verdicts == ["does not hold", "holds with limits", "holds with limits", "does not hold"]
+    forwards = [part["verdict_forwards"] for part in study()["conclusions"].values()]
+    assert forwards == ["holds", "does not hold", "holds", "does not hold"]
 
 
 @pytest.mark.parametrize(
@@ -17,17 +19,18 @@ def test_verdicts():
         (claims.judge_finite, (0.0, 0.0), "holds"),
         (claims.judge_finite, (0.0, 1e-9), "holds with limits"),
         (claims.judge_finite, (1e-9, 0.0), "does not hold"),
-        (claims.judge_widening, (1.0, 0.0, True), "holds"),
-        (claims.judge_widening, (0.995, 0.1, False), "holds with limits"),
-        (claims.judge_widening, (0.98, 0.1, False), "does not hold"),
-        (claims.judge_widening, (1.0, None, False), "does not hold"),
+        (claims.judge_widening, (1.0, 0.0, True, False), "holds"),
+        (claims.judge_widening, (0.995, 0.1, False, False), "holds with limits"),
+        (claims.judge_widening, (0.98, 0.1, False, False), "does not hold"),
+        (claims.judge_widening, (1.0, 0.1, True, True), "does not hold"),
+        (claims.judge_widening, (1.0, None, False, False), "does not hold"),
         (claims.judge_margin, (0.1,), "holds"),
         (claims.judge_margin, (0.11,), "holds with limits"),
         (claims.judge_margin, (None,), "does not hold"),
         (claims.judge_damping, (None,), "holds"),
         (claims.judge_damping, (10.5,), "holds"),
-        (claims.judge_damping, (0.11,), "holds with limits"),
-        (claims.judge_damping, (0.1,), "does not hold"),
+        (claims.judge_damping, (0.35,), "holds with limits"),
+        (claims.judge_damping, (0.34,), "does not hold"),
     ],
 )
 def test_rules(rule, values, verdict):

@@ -6,6 +6,7 @@ from hypothesis import assume, given, settings
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import canonical_matrices, characteristic_table, coefficients
+from bikestab.paper1981.box import PAPER_BOX
 from bikestab.paper1981.maps import map_designs, stable_at_high_speed
 from bikestab.speeds import intervals_of
 from tests.small import SPEEDS, brute, numbers, study
@@ -30,7 +31,7 @@ def test_shares_and_volume_on_finer_grids():
     found = numbers(1)
     assert found["shares"]["some"] == pytest.approx(0.38712, abs=5e-4)
     assert found["shares"]["unbounded"] == pytest.approx(0.033562, abs=3e-4)
-    assert found["grid"]["some"] == pytest.approx(0.38712, abs=5e-3)
+    assert found["grid"]["shares"]["some"] == pytest.approx(0.38712, abs=5e-3)
     models = study()["refinement"]["models"]
     assert models["refined"]["volume"] == pytest.approx(0.0482246, rel=5e-3)
     assert models["unrefined"]["volume"] == 0
@@ -117,3 +118,16 @@ def test_closed_form_over_the_map(bicycle):
     assert np.array_equal(found.formula, found.unbounded)
     assert numbers(1)["formula_disagreements"] == 0
     assert numbers(1)["random_machines"]["formula_disagreements"] == 0
+
+
+def test_no_fork_bent_forwards_is_without_upper_limit(bicycle):
+    """On a fine grid of the wider box, and the share of the stable designs that have b >= 0."""
+    forwards = numbers(1)["forwards"]
+    assert forwards["shares"]["unbounded"] == forwards["shares_wider_box"]["unbounded"] == 0
+    assert forwards["of_stable"] == pytest.approx(0.1725, abs=2e-3)
+    designs = map_designs(bicycle, 200, PAPER_BOX.wider)
+    assert not (designs.unbounded & designs.forwards).any()
+    b = bicycle.R2 * np.sin(designs.lam) - designs.sigma * bicycle.c * np.cos(designs.lam)
+    assert np.array_equal(b >= 0, designs.forwards)
+    for example in numbers(1)["counterexamples"]:
+        assert example["offset"] < -0.1

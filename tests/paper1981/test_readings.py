@@ -1,15 +1,18 @@
 """Other readings of the printed values."""
 
+import pytest
+
 from bikestab.bicycle import Bicycle
-from bikestab.paper1981.readings import judge_reading
+from bikestab.paper1981.readings import exchanged, judge_reading
+from bikestab.paper1981.study import plain
 from tests.small import TINY, all_readings, study
 
 FINITE = "A1 ⇄ B1, A2 ⇄ B2, B2 = 0.36"  # with C = 0.5, the printed value
 
 
-def test_there_are_36():
+def test_there_are_60():
     found = all_readings()
-    assert len(found) == 36
+    assert len(found) == 60
     assert [words for words, reading in found.items() if reading.printed] == ["as printed"]
     assert found["as printed"].bicycle == Bicycle.preset("dikarev1981")
     swapped = found[FINITE].bicycle
@@ -20,25 +23,43 @@ def test_there_are_36():
 def test_verdicts_of_the_printed_values_are_those_of_the_study():
     found = judge_reading(all_readings()["as printed"], TINY.grid_readings)
     study_verdicts = {number: part["verdict"] for number, part in study()["conclusions"].items()}
-    assert found.verdicts == study_verdicts
-    assert not found.rigid
+    assert plain(found.judged.everywhere.verdicts) == study_verdicts
+    forwards = {number: part["verdict_forwards"] for number, part in study()["conclusions"].items()}
+    assert plain(found.judged.forwards.verdicts)["1"] == forwards["1"]
+    assert not found.possible
 
 
 def test_the_reading_that_is_bounded_in_the_box():
     """Unbounded intervals from σ ≈ 0.156 on only."""
     found = judge_reading(all_readings()[FINITE], TINY.grid_readings)
-    assert found.shares.unbounded == 0
-    assert found.shares_wider_box.unbounded > 0
-    assert found.verdicts["1"] == "holds with limits"
+    whole = found.judged.everywhere
+    assert whole.shares.unbounded == 0
+    assert whole.shares_wider_box.unbounded > 0
+    assert whole.verdicts.finite_interval == "holds with limits"
 
 
 def test_a_possible_machine_refutes_conclusion_1_too():
     found = judge_reading(all_readings()["A1 ⇄ B1, C = 0.05"], TINY.grid_readings)
-    assert found.rigid
-    assert found.verdicts["1"] == "does not hold"
-    assert found.formula_disagreements == 0
+    assert found.possible
+    assert found.judged.everywhere.verdicts.finite_interval == "does not hold"
+    assert found.judged.forwards.verdicts.finite_interval == "holds"
+    assert found.judged.formula_disagreements == 0
 
 
 def test_counts_add_up():
     s = study()["sensitivity"]
-    assert all(sum(count.values()) == s["number"] == len(s["readings"]) for count in s["counts"].values())
+    for count in s["counts"].values():
+        assert sum(count["all"].values()) == s["number"] - s["stable_nowhere"]
+    assert s["number"] == len(s["readings"])
+
+
+def test_readings_that_rigid_bodies_can_have():
+    """24, 16 and 12 of the 32 with C = 0.05, 0.1, 0.25, 0.5; the wheel's C2 as computed by hand."""
+    s = study()["sensitivity"]["possible"]
+    assert (s["tried"], s["by_sums"], s["by_diameters"], s["by_parallel_axes"]) == (40, 32, 20, 16)
+    others = [r for r in exchanged(Bicycle.preset("dikarev1981")) if r.bicycle.C2 != 0.175]
+    assert (len(others), sum(not r.bicycle.warnings for r in others)) == (32, 12)
+    C2 = s["largest_C2"]
+    assert pytest.approx(0.0502, abs=5e-5) == C2
+    rim = C2 / 0.35**2
+    assert C2 / 2 + rim * 2.7 / (2.7 - rim) * 0.15**2 == pytest.approx(0.036, rel=1e-9)

@@ -14,7 +14,7 @@ from tests.small import record, study
 # what is no number of the study: formulas, names such as V1 or C2°, references and years, links, units
 NOT_NUMBERS = [
     r"(?m)^    .*$", r"\]\([^)]*\)",
-    r"\((?:1981|2007)\)", r"\((?:1\.2|1\.4|2\.2)\)", r"\bfigure 3\b", r"## Figure 3",
+    r"\((?:19|20)\d\d\)", r"\((?:1\.2|1\.4|2\.2)\)", r"\bfigure 3\b", r"## Figure 3",
     r"1/s\b", r"1/V", r"rad m/s", r"(?:Conclusion|conclusion) [1-4]", r"[pVcAabBCDRmlhαΔ]_?\d°?(?:/c)?",
 ]  # fmt: skip
 NUMBER = re.compile(r"(?<![\w.^])[−-]?\d+(?:\.\d+)?(?:e[−-]?\d+)?")
@@ -68,6 +68,7 @@ def foreign(text):
 def test_the_report_is_complete(text):
     for part in study()["conclusions"].values():
         assert f"**Verdict: {part['verdict']}.**" in text
+        assert f"**For forks bent forwards: {part['verdict_forwards']}" in text
         assert part["claim"] in text
     for name in FIGURES:
         assert f"]({name})" in text

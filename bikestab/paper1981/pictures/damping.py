@@ -9,11 +9,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bikestab.bicycle import Bicycle
-from bikestab.paper1981.damping import DampedDesign, Damping
+from bikestab.paper1981.claims import THRESHOLDS
+from bikestab.paper1981.damped_designs import DampedDesign
+from bikestab.paper1981.damping import Damping
 from bikestab.plot.axes import HALO, LABELS
 
-_STYLES: tuple[Any, ...] = ("-", (0, (6, 1.5)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 1, 1, 1, 1, 1)))
-_COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7")  # Okabe and Ito 2008
+_STYLES: tuple[Any, ...] = (
+    "-",
+    (0, (6, 1.5)),
+    (0, (3, 1, 1, 1)),
+    (0, (1, 1)),
+    (0, (8, 1, 1, 1, 1, 1)),
+    (0, (2, 2)),
+)
+_COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9")  # Okabe, Ito
 
 
 def draw_damping(bicycle: Bicycle, numbers: Damping) -> Figure:
@@ -23,40 +32,49 @@ def draw_damping(bicycle: Bicycle, numbers: Damping) -> Figure:
     _single_designs(left, numbers.single_designs)
     _measures(right, numbers)
     for ax, where in ((left, "lower left"), (right, "lower right")):
-        ax.set(xscale="log", xlim=numbers.range, xlabel="damping of the steering δ [kg m²/s]")
+        ax.set(
+            xscale="log",
+            xlim=(numbers.deltas[0], numbers.deltas[-1]),
+            xlabel="damping of the steering δ [kg m²/s]",
+        )
         _plain_ticks(ax.set_xticks, [0.001, 0.01, 0.1, 1, 10])
-        ax.axvspan(numbers.range[0], numbers.bearings, color="0.93", zorder=0)
+        ax.axvspan(numbers.deltas[0], THRESHOLDS["bearings"], color="0.93", zorder=0)
         ax.legend(fontsize=8.5, loc=where)
     figure.suptitle(
-        f"{bicycle.name}: the boundaries against damping (grey: friction of bearings)", fontsize=11
+        f"{bicycle.name}: the boundaries against damping (grey: up to the measured friction of bearings)",
+        fontsize=11,
     )
     return figure
 
 
 def _single_designs(ax: Axes, designs: list[DampedDesign]) -> None:
     for design, colour, style in zip(designs, _COLOURS, _STYLES, strict=True):
-        delta = [row.delta for row in design.sweep]
-        V1 = [_or_gap(row.V1) for row in design.sweep]
-        V2 = [_or_gap(row.V2) for row in design.sweep]
+        rows = [*([design.at_onset] if design.at_onset else []), *design.sweep]
+        rows.sort(key=lambda row: row.delta)
+        delta = [row.delta for row in rows]
+        V1 = [_or_gap(row.V1) for row in rows]
+        V2 = [_or_gap(row.V2) for row in rows]
         label = f"λ = {design.lam:.2f}, σ = {design.sigma:.2f}"
         ax.plot(delta, V1, color=colour, ls=style, lw=1.8, label=label)
         ax.plot(delta, V2, color=colour, ls=style, lw=0.9)
     ax.set_ylabel(LABELS["V"])
-    ax.set_title("thick: V₁ (weave); thin: V₂ (capsize), where bounded", fontsize=10)
+    ax.set_title("thick: V₁; thin: V₂ (capsize, but weave at λ = 0.03), where bounded", fontsize=10)
     ax.set_ylim(0, None)
 
 
 def _measures(ax: Axes, numbers: Damping) -> None:
     measures = {
-        "volume of the region": [row.volume_change for row in numbers.sweep],
-        "V₁, median over designs": [row.V1_change_median for row in numbers.sweep],
+        "volume of the region": [row.volume_change for row in numbers.everywhere.changes],
+        "V₁, median over designs": [row.V1_change_median for row in numbers.everywhere.changes],
     }
     for i, lam in enumerate(numbers.folds_at_lam):
-        measures[f"smallest stable σ at λ = {lam:g}"] = [row.sigma_min_change[i] for row in numbers.sweep]
-    for (label, values), colour, style in zip(measures.items(), _COLOURS, _STYLES, strict=True):
+        measures[f"smallest stable σ at λ = {lam:g}"] = [
+            row.sigma_min_change[i] for row in numbers.everywhere.changes
+        ]
+    for (label, values), colour, style in zip(measures.items(), _COLOURS, _STYLES, strict=False):
         percent = [100 * abs(_or_gap(value)) for value in values]
         ax.plot(numbers.deltas, percent, color=colour, ls=style, lw=1.8, label=label)
-    marked = 100 * numbers.marked
+    marked = 100 * THRESHOLDS["marked"]
     ax.axhline(marked, color="0.3", lw=0.8)
     ax.text(numbers.deltas[0] * 1.2, marked * 1.1, f"marked: {marked:g} %", path_effects=HALO)
     ax.set(yscale="log", ylabel="|change| against δ = 0 [%]", ylim=(0.01, 400))

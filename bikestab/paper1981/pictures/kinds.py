@@ -13,7 +13,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
-from bikestab.paper1981.box import LAM, SIGMA
+from bikestab.paper1981.box import LAM, SIGMA, DesignBox
 from bikestab.paper1981.maps import map_designs
 from bikestab.plot.axes import HALO, label_axes
 from bikestab.plot.designs import CURVES
@@ -29,7 +29,7 @@ def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], sample
     figure = Figure(figsize=(8.2, 6.2), layout="constrained")
     ax = figure.add_subplot()
     sigma = (SIGMA[0], _TOP)
-    designs = map_designs(bicycle, samples, sigma=sigma)
+    designs = map_designs(bicycle, samples, DesignBox(LAM, sigma))
     kind = np.where(designs.unbounded, 2, (designs.number > 0).astype(int))
     ax.pcolormesh(
         designs.lam[:, 0], designs.sigma, kind.T, cmap=ListedColormap(list(_KINDS.values())), vmin=0, vmax=2,
