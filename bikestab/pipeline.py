@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bikestab.config.file import load_config
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import InputError
-from bikestab.scanning.run import run_scan
+from bikestab.scanning.run import Progress, run_scan
 from bikestab.volume import Volume
 
 
@@ -36,55 +36,38 @@ class Scan(NamedTuple):
 
 
 def scan(
-    config: str | Path | ScanConfig,
-    overrides: Sequence[str] = (),
-    *,
-    force: bool = False,
-    jobs: int | None = None,
-    scheduler: str = "",
-    progress: Callable[[int, int], None] = lambda done, points: None,
-) -> Scan:
-    """Evaluate a grid and draw its pictures, as the command ``bikestab scan`` does.
-
-    The output folder, from the current one, gets ``volume.h5``, ``region.png`` and a picture for each of the
-    config's ``slices``. A volume of the same config that is there already is kept and only its pictures are
-    drawn; a scan that was stopped goes on where it was.
+    config: str | Path | ScanConfig, overrides: Sequence[str] = (), *, force: bool = False,
+    jobs: int | None = None, scheduler: str = "", progress: Progress = lambda done, points: None,
+) -> Scan:  # fmt: skip
+    """Evaluate a grid and draw its pictures, as the command ``bikestab scan`` does; what is there is kept.
 
     Parameters
     ----------
     config : path or ScanConfig
-        The YAML file. Paths in it start from its folder.
+        The YAML file.
     overrides : sequence of str
-        Values put over those of the file, such as ``"grid.V.num=61"``, as with ``--set``.
+        Values put over the file's, such as ``"grid.V.num=61"``.
     force : bool
         Replace the output of another config, or compute again.
-    jobs : int, optional
-        How many processes compute; by default one for each core, if there is work for them.
-    scheduler : str
-        Address of a Dask scheduler, ``"tcp://HOST:PORT"``, or ``"local:N"`` for N processes of its own. Needs
-        the extra ``cluster``.
+    jobs, scheduler : int, str, optional
+        How many processes compute, by default one for each core if there is work for them; or a Dask
+        scheduler's address, or ``"local:N"`` (extra ``cluster``).
     progress : callable
-        Called now and then with the number of points done so far, and of all.
+        Called now and then with the points done so far, and all.
 
     Returns
     -------
     Scan
-        ``path`` of the volume, ``pictures``, ``computed``, ``points``, ``stable_points``, and ``open()``,
-        which opens the volume. A picture that cannot be drawn is a Python warning.
+        Its files, and ``open()``, which opens the volume. What cannot be drawn is a Python warning.
 
     Raises
     ------
-    InputError
-        For a mistake in the config (it names file, line, key and what is allowed), and for an output that
-        belongs to another config, cannot be written, or would be too large.
-    ScanError
-        Where the disk is full, a worker is lost, or the exact speeds and the conditions do not agree. What is
-        finished is kept.
+    InputError, ScanError
+        For mistakes in the config, an output that is another's, a full disk, a check that fails.
 
     Notes
     -----
-    The grid is that of the conditions (2.2) of Dikarev, Dikareva and Fufaev (1981); docs/format.md describes
-    the volume.
+    Conditions (2.2) of Dikarev, Dikareva and Fufaev (1981); docs/format.md describes the volume.
 
     Examples
     --------
@@ -92,14 +75,10 @@ def scan(
     >>> done = bs.scan("configs/quick.yaml", ["grid.V.num=11", "slices=[]", "output=out/few"])
     >>> done.path.as_posix(), done.points, [picture.name for picture in done.pictures]
     ('out/few/volume.h5', 10571, ['region.png'])
-    >>> with done.open() as volume:
-    ...     int(volume.read("stable").sum()) == done.stable_points
-    True
     """
     from bikestab.plot.pictures import draw_pictures  # matplotlib takes half a second
 
-    place = "" if isinstance(config, ScanConfig) else str(config)
-    loaded = config if isinstance(config, ScanConfig) else load_config(config, overrides)
+    loaded, place = _loaded(config, overrides, jobs and scheduler)
     try:
         done = run_scan(loaded, force=force, jobs=jobs, scheduler=scheduler, progress=progress)
     except InputError as error:
@@ -140,6 +119,17 @@ def open_volume(path: str | Path) -> Volume:
     ('dikarev1981', ['stable', 'violated', 'growth_rate'], (31, 31, 1))
     """
     return Volume(path)
+
+
+def _loaded(config: str | Path | ScanConfig, overrides: Sequence[str], both: Any) -> tuple[ScanConfig, str]:
+    """The config, and where it is from; InputError where one argument would leave another unheeded."""
+    if both:
+        raise InputError("jobs is for this machine, scheduler for a cluster", hint="give one of them")
+    if not isinstance(config, ScanConfig):
+        return load_config(config, overrides), str(config)
+    if overrides:
+        raise InputError("overrides are for a file", hint="give the config as it is to be")
+    return config, ""
 
 
 def _warn(text: str) -> None:

@@ -5,37 +5,28 @@ The functions that answer for tables are in ``speeds``, ``spectrum``, ``routh`` 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab import routh
+from bikestab.arguments import Given, table_and_speeds
 from bikestab.bicycle import Bicycle
-from bikestab.errors import InputError, nearest
-from bikestab.limits import check_speed, check_tilt, check_trail
-from bikestab.model import MODELS, Floats, Model, characteristic_table
+from bikestab.errors import InputError
+from bikestab.model import Floats, Model
 from bikestab.spectrum import eigenvalues_of, growth_rate_of
 from bikestab.speeds import Intervals, intervals_of
-from bikestab.units import ANGLE, PURE, SPEED, quantity, shown
 
 if TYPE_CHECKING:
     from bikestab.branches import Modes
 
-_EXAMPLE = {"lam": "0.2", "sigma": "0.08"}
-
 
 def stable_intervals(
-    bicycle: Bicycle,
-    lam: ArrayLike | None = None,
-    sigma: ArrayLike | None = None,
-    *,
-    model: Model = "refined",
-    delta: float | None = None,
-) -> Intervals:
+    bicycle: Bicycle, lam: Given = None, sigma: Given = None, *,
+    model: Model = "refined", delta: float | None = None,
+) -> Intervals:  # fmt: skip
     """Every interval of speeds at which the machine runs straight by itself.
-
-    The ends are roots of polynomials, right to rounding; no grid is involved, and no interval is too narrow.
 
     Parameters
     ----------
@@ -52,20 +43,19 @@ def stable_intervals(
     Returns
     -------
     Intervals
-        ``V1``, ``V2`` [m/s], and what happens there, ``lower``, ``upper``, as indices into ``KINDS``. Each
-        has the shape ``(*shape, interval)``: ascending, NaN and ``"none"`` behind a design's last interval,
-        ``V2`` = inf where there is no upper limit. ``number`` is how many intervals each design has.
+        ``V1``, ``V2`` [m/s] and what happens there, ``lower``, ``upper``, as indices into ``KINDS``; each of
+        shape ``(*shape, interval)``, NaN and ``"none"`` behind a design's last; ``V2`` may be inf. ``number``
+        is how many intervals each design has.
 
     Raises
     ------
     InputError
-        For a design that is missing, or a value that the equations cannot use; its ``key`` names the
-        argument.
+        For a missing design, or what the equations cannot use; its ``key`` names the argument.
 
     Notes
     -----
-    The conditions are (2.2) of Dikarev, Dikareva and Fufaev (1981). An interval ends where hurwitz3 = 0
-    (``weave``) or p0 = 0 (``capsize``), at V = 0 (``rest``), or never (``unbounded``).
+    From (2.2) of Dikarev, Dikareva and Fufaev (1981): an interval ends where hurwitz3 = 0 (``weave``) or
+    p0 = 0 (``capsize``), at V = 0 (``rest``), or never (``unbounded``). No grid is involved.
 
     Examples
     --------
@@ -79,19 +69,14 @@ def stable_intervals(
            [1, 1, 1],
            [1, 1, 1]])
     """
-    table, _ = _asked(bicycle, 0.0, lam, sigma, model, delta)
+    table, _ = table_and_speeds(bicycle, 0.0, lam, sigma, model, delta)
     return intervals_of(table)
 
 
 def eigenvalues(
-    bicycle: Bicycle,
-    V: ArrayLike,
-    lam: ArrayLike | None = None,
-    sigma: ArrayLike | None = None,
-    *,
-    model: Model = "refined",
-    delta: float | None = None,
-) -> NDArray[np.complex128]:
+    bicycle: Bicycle, V: ArrayLike, lam: Given = None, sigma: Given = None, *,
+    model: Model = "refined", delta: float | None = None,
+) -> NDArray[np.complex128]:  # fmt: skip
     """The four eigenvalues of the motion, in no particular order; ``modes`` follows and names them.
 
     Parameters
@@ -129,18 +114,13 @@ def eigenvalues(
     >>> bs.eigenvalues(bike, np.linspace(0, 10, 101), lam=[[0.3], [0.4]]).shape
     (4, 2, 101)
     """
-    return eigenvalues_of(*_asked(bicycle, V, lam, sigma, model, delta))
+    return eigenvalues_of(*table_and_speeds(bicycle, V, lam, sigma, model, delta))
 
 
 def growth_rate(
-    bicycle: Bicycle,
-    V: ArrayLike,
-    lam: ArrayLike | None = None,
-    sigma: ArrayLike | None = None,
-    *,
-    model: Model = "refined",
-    delta: float | None = None,
-) -> Floats:
+    bicycle: Bicycle, V: ArrayLike, lam: Given = None, sigma: Given = None, *,
+    model: Model = "refined", delta: float | None = None,
+) -> Floats:  # fmt: skip
     """The largest real part of the eigenvalues: how fast the fastest growing motion grows.
 
     Parameters
@@ -170,18 +150,13 @@ def growth_rate(
     >>> bs.growth_rate(bike, [3, 5, 7]).round(6)
     array([ 1.706756, -0.322866,  0.102682])
     """
-    return growth_rate_of(*_asked(bicycle, V, lam, sigma, model, delta))
+    return growth_rate_of(*table_and_speeds(bicycle, V, lam, sigma, model, delta))
 
 
 def stable(
-    bicycle: Bicycle,
-    V: ArrayLike,
-    lam: ArrayLike | None = None,
-    sigma: ArrayLike | None = None,
-    *,
-    model: Model = "refined",
-    delta: float | None = None,
-) -> NDArray[np.bool_]:
+    bicycle: Bicycle, V: ArrayLike, lam: Given = None, sigma: Given = None, *,
+    model: Model = "refined", delta: float | None = None,
+) -> NDArray[np.bool_]:  # fmt: skip
     """Whether every small disturbance of rectilinear motion dies out: within an interval V1 < V < V2.
 
     Parameters
@@ -213,7 +188,7 @@ def stable(
     >>> bool(bs.stable(bike, "18km/h", lam="20deg"))
     True
     """
-    table, speeds = _asked(bicycle, V, lam, sigma, model, delta)
+    table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
     found = intervals_of(table)
     inside = (speeds == 0) & routh.stable(table, 0.0)
     for V1, V2 in zip(np.moveaxis(found.V1, -1, 0), np.moveaxis(found.V2, -1, 0), strict=True):
@@ -222,14 +197,9 @@ def stable(
 
 
 def modes(
-    bicycle: Bicycle,
-    V: ArrayLike,
-    lam: float | str | None = None,
-    sigma: float | str | None = None,
-    *,
-    model: Model = "refined",
-    delta: float | None = None,
-) -> Modes:
+    bicycle: Bicycle, V: ArrayLike, lam: float | str | None = None, sigma: float | str | None = None, *,
+    model: Model = "refined", delta: float | None = None,
+) -> Modes:  # fmt: skip
     """The eigenvalues of one design, followed continuously along the speed and named.
 
     Parameters
@@ -267,59 +237,8 @@ def modes(
     """
     from bikestab.branches import follow  # exact arithmetic, which nothing else here needs
 
-    table, speeds = _asked(bicycle, V, lam, sigma, model, delta)
+    table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
     if table.ndim > 2 or speeds.ndim > 1:
         key = "V" if table.ndim == 2 else "lam, sigma"
         raise InputError("modes are followed for one design along one row of speeds", key=(key,))
     return follow(table, speeds)
-
-
-def design_of(bicycle: Bicycle, lam: ArrayLike | None, sigma: ArrayLike | None) -> tuple[Floats, Floats]:
-    """The λ [rad] and σ [1] that are given, or else the bicycle's own, each as an array.
-
-    Raises InputError, with the key ``lam`` or ``sigma``, where there is none, or one that cannot be used.
-    """
-    found = []
-    for name, given, own in (("lam", lam, bicycle.lam), ("sigma", sigma, bicycle.sigma)):
-        value = own if given is None else given
-        if value is None:
-            problem = f"the bicycle {bicycle.name!r} has no {name} of its own"
-            raise InputError(problem, key=(name,), hint=f"give one, for example {_EXAMPLE[name]}")
-        found.append(_checked(name, value))
-    return found[0], found[1]
-
-
-def _asked(
-    bicycle: Bicycle, V: ArrayLike, lam: ArrayLike | None, sigma: ArrayLike | None, model: Model, delta: Any
-) -> tuple[Floats, Floats]:
-    """The table of the designs, and the speeds; both can be used, and broadcast together."""
-    if not isinstance(bicycle, Bicycle):
-        hint = "Bicycle.load takes a name or a file, Bicycle.from_mapping parameters"
-        raise InputError(f"{shown(bicycle)} is no Bicycle", key=("bicycle",), hint=hint)
-    if model not in MODELS:
-        raise InputError(f"there is no model {model!r}", key=("model",), hint=nearest(str(model), MODELS))
-    tilt, trail = design_of(bicycle, lam, sigma)
-    speeds = _checked("V", V)
-    try:
-        np.broadcast_shapes(tilt.shape, trail.shape, speeds.shape)
-    except ValueError:
-        shapes = ", ".join(
-            f"{k} {x.shape}" for k, x in (("lam", tilt), ("sigma", trail), ("V", speeds)) if x.ndim
-        )
-        raise InputError(f"shapes do not broadcast together: {shapes}") from None
-    return characteristic_table(bicycle.with_delta(delta), tilt, trail, model=model), speeds
-
-
-def _checked(name: str, given: ArrayLike) -> Floats:
-    """Numbers, or text with units, as an array of what the equations can use."""
-    units, check = {
-        "lam": (ANGLE, check_tilt), "sigma": (PURE, check_trail), "V": (SPEED, check_speed),
-    }[name]  # fmt: skip
-    values = np.asarray(given)
-    if values.dtype.kind not in "iuf":
-        numbers = [quantity(x, units, key=(name,)) for x in values.ravel().tolist()]
-        values = np.reshape(numbers, values.shape)
-    values = values.astype(float)
-    for extreme in (values.min(initial=0), values.max(initial=0)):  # NaN is both
-        check(float(extreme), (name,))
-    return values

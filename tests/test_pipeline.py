@@ -53,6 +53,14 @@ def test_mistakes_name_the_file():
         bs.scan("configs/quik.yaml")
 
 
+def test_what_would_not_be_heeded_is_refused():
+    config = load_config("configs/quick.yaml", SMALL)
+    with pytest.raises(bs.InputError, match="overrides are for a file"):
+        bs.scan(config, ["output=elsewhere"])
+    with pytest.raises(bs.InputError, match="give one of them"):
+        bs.scan(config, jobs=2, scheduler="local:2")
+
+
 def test_what_is_not_drawn_is_a_warning(monkeypatch):
     monkeypatch.setattr(pictures, "MOST_DRAWN", 1)
     with pytest.warns(UserWarning, match="pictures of 2 machines are not drawn"):

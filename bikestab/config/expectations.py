@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from bikestab.arguments import design_of
 from bikestab.config.scanconfig import Expectation, ScanConfig
 from bikestab.errors import InputError
 from bikestab.records import Interval, interval_records
-from bikestab.stability import design_of, stable_intervals
+from bikestab.stability import stable_intervals
 
 
 class Outcome(NamedTuple):

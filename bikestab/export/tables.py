@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.export.formats import file_format
+from bikestab.export.endings import file_format
 from bikestab.files import written
 from bikestab.model import Floats
 from bikestab.speeds import KINDS

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bikestab.arguments import design_of
 from bikestab.bicycle import Bicycle
 from bikestab.model import Model
 from bikestab.records import Design, Interval, design_record, interval_records
-from bikestab.stability import design_of, stable_intervals
+from bikestab.stability import stable_intervals
 
 if TYPE_CHECKING:
     from bikestab.region.nearest import Nearest

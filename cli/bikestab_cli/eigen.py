@@ -80,9 +80,10 @@ def command(
     """
     from bikestab_cli.eigen_words import told
 
+    from bikestab.arguments import design_of
     from bikestab.export.tables import MODES, modes_blocks, save_csv
     from bikestab.records import design_record, interval_records, modes_record
-    from bikestab.stability import design_of, modes, stable_intervals
+    from bikestab.stability import modes, stable_intervals
 
     if output and min(speeds) == max(speeds):
         raise click.BadParameter("a picture needs a range, for example 0:10:21", param_hint="--V")

@@ -11,7 +11,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.config.file import parse_config
 from bikestab.errors import InputError
 from bikestab.export import tables
-from bikestab.export.formats import file_format
+from bikestab.export.endings import file_format
 from bikestab.export.meshes import MESHES, readable_scale, save_mesh
 from bikestab.export.tables import INTERVALS, SKELETON, interval_blocks, save_table, skeleton_blocks
 from bikestab.family import Family

@@ -1,0 +1,68 @@
+"""What functions of a machine are given, numbers or text with units → arrays that the equations can use."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bikestab.bicycle import Bicycle
+from bikestab.errors import InputError, nearest
+from bikestab.limits import check_speed, check_tilt, check_trail
+from bikestab.model import MODELS, Floats, Model, characteristic_table
+from bikestab.units import ANGLE, PURE, SPEED, quantity, shown
+
+Given: TypeAlias = ArrayLike | None  # None: the bicycle's own
+_EXAMPLE = {"lam": "0.2", "sigma": "0.08"}
+
+
+def design_of(bicycle: Bicycle, lam: Given, sigma: Given) -> tuple[Floats, Floats]:
+    """The λ [rad] and σ [1] that are given, or else the bicycle's own, each as an array.
+
+    Raises InputError, with the key ``lam`` or ``sigma``, where there is none, or one that cannot be used.
+    """
+    found = []
+    for name, given, own in (("lam", lam, bicycle.lam), ("sigma", sigma, bicycle.sigma)):
+        value = own if given is None else given
+        if value is None:
+            problem = f"the bicycle {bicycle.name!r} has no {name} of its own"
+            raise InputError(problem, key=(name,), hint=f"give one, for example {_EXAMPLE[name]}")
+        found.append(_checked(name, value))
+    return found[0], found[1]
+
+
+def table_and_speeds(
+    bicycle: Bicycle, V: ArrayLike, lam: Given, sigma: Given, model: Model, delta: Any
+) -> tuple[Floats, Floats]:
+    """The table of the designs, and the speeds. InputError for what cannot be used or broadcast together."""
+    if not isinstance(bicycle, Bicycle):
+        hint = "Bicycle.load takes a name or a file, Bicycle.from_mapping parameters"
+        raise InputError(f"{shown(bicycle)} is no Bicycle", key=("bicycle",), hint=hint)
+    if model not in MODELS:
+        raise InputError(f"there is no model {model!r}", key=("model",), hint=nearest(str(model), MODELS))
+    tilt, trail = design_of(bicycle, lam, sigma)
+    speeds = _checked("V", V)
+    try:
+        np.broadcast_shapes(tilt.shape, trail.shape, speeds.shape)
+    except ValueError:
+        shapes = ", ".join(
+            f"{k} {x.shape}" for k, x in (("lam", tilt), ("sigma", trail), ("V", speeds)) if x.ndim
+        )
+        raise InputError(f"shapes do not broadcast together: {shapes}") from None
+    return characteristic_table(bicycle.with_delta(delta), tilt, trail, model=model), speeds
+
+
+def _checked(name: str, given: ArrayLike) -> Floats:
+    """Numbers, or text with units, as an array of what the equations can use."""
+    units, check = {
+        "lam": (ANGLE, check_tilt), "sigma": (PURE, check_trail), "V": (SPEED, check_speed),
+    }[name]  # fmt: skip
+    values = np.asarray(given)
+    if values.dtype.kind not in "iuf":
+        numbers = [quantity(x, units, key=(name,)) for x in values.ravel().tolist()]
+        values = np.reshape(numbers, values.shape)
+    values = values.astype(float)
+    for extreme in (values.min(initial=0), values.max(initial=0)):  # NaN is both
+        check(float(extreme), (name,))
+    return values
