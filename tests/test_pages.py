@@ -43,3 +43,22 @@ def test_the_reference_has_every_public_name():
     text = (ROOT / "docs" / "reference.md").read_text("utf-8")
     listed = re.findall(r"^\.\. \S+:: bikestab\.(\w+)$", text, re.M)
     assert sorted(listed) == sorted(bikestab.__all__)
+
+
+def test_the_house_has_every_room():
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    house = text.partition("## The house")[2].partition("\n## ")[0]
+    library = house.partition("    bikestab/\n")[2].partition("    cli/bikestab_cli/")[0]
+    rooms = {path.stem for path in (ROOT / "bikestab").iterdir() if path.suffix == ".py" or path.is_dir()}
+    assert rooms - {"__pycache__"} <= set(re.findall(r"\w+", library))
+    for path in (path for path in ROOT.iterdir() if path.is_dir() and not path.name.startswith(".")):
+        if path.name not in ("build", "dist", "out", "bikestab"):
+            assert f"    {path.name}/" in house
+
+
+def test_places_that_are_told_exist():
+    """Every path of the project between backticks in CONTRIBUTING.md, but for the names to be given."""
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    for path in re.findall(r"`((?:bikestab|cli|docs|tests|configs|examples)/[^`*]*)`", text):
+        if "NAME" not in path:
+            assert (ROOT / path).exists(), path
