@@ -8,13 +8,14 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 from contourpy import contour_generator
+from numpy.typing import NDArray
 from scipy.optimize import elementwise
 
 from bikestab.errors import ScanError
 from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.region.events import Box, event_at
-from bikestab.region.skeleton import CurveName, curve_functions
+from bikestab.region.skeleton import CurveName
 
 NAMES: dict[CurveName, str] = {name: name for name in get_args(CurveName)} | {
     "crossing": "fold",  # of two weave speeds, by the weave surface crossing itself
@@ -24,6 +25,7 @@ NAMES: dict[CurveName, str] = {name: name for name in get_args(CurveName)} | {
 _SAMPLES = 401  # per axis of the grid whose sign changes are followed
 _NEAR_END = 4.0 * 1.5 ** np.arange(-9, 1)  # grid steps: where points are put towards an end of a curve
 _HOP = "hop"  # the end of a piece whose line went on along another branch of the same function
+_ZERO = 1e-6  # of a function's largest value: more is a jump, not a zero
 _SAME = 1e-6  # of the box: the uncertainty of a point where curves touch
 _SECTIONS = 64  # of a stretch of curve at a time, when an end is looked for in it
 
@@ -67,7 +69,7 @@ def trace(
     """
     box = Box(family, np.array([x, y], dtype=float), V)
     nodes = np.linspace(0, 1, samples)
-    functions = curve_functions(box.table(np.array(np.meshgrid(nodes, nodes, indexing="ij"))))
+    functions = box.values(np.array(np.meshgrid(nodes, nodes, indexing="ij")))
     found: list[Curve] = []
     for key, values in functions.items():
         scale = np.abs(values).max()
@@ -75,7 +77,8 @@ def trace(
             lines = contour_generator(nodes, nodes, (values / scale).T).lines(0.0)
             pieces: list[Curve] = []
             for line in _refined(box, key, [np.asarray(line).T for line in lines], nodes):
-                pieces.extend(_pieces(box, key, line, float(nodes[1])))
+                for stretch in _without_jumps(np.abs(box.value(key, line)) <= _ZERO * scale, line):
+                    pieces.extend(_pieces(box, key, stretch, float(nodes[1])))
             found.extend(_rejoined(pieces))
     return _meeting(found, box)
 
@@ -95,7 +98,8 @@ def _refined(box: Box, key: CurveName, lines: list[Floats], nodes: Floats) -> li
     low = nodes[np.where(on_node, np.rint(index), np.floor(index)).astype(int)]
     high = nodes[np.where(on_node, np.rint(index), np.floor(index) + 1).astype(int)]
     zero, one = np.zeros(points.shape[1]), np.ones(points.shape[1])
-    moving = (value(zero, *low, *high) * value(one, *low, *high) < 0) & ~on_node.all(axis=0)
+    moving = np.sign(value(zero, *low, *high)) * np.sign(value(one, *low, *high)) < 0
+    moving &= ~on_node.all(axis=0)
     root = elementwise.find_root(
         value, (zero[moving], one[moving]), args=(*low[:, moving], *high[:, moving]),
         tolerances={"xatol": 1e-16, "xrtol": 1e-15},
@@ -106,6 +110,13 @@ def _refined(box: Box, key: CurveName, lines: list[Floats], nodes: Floats) -> li
     t[moving] = root.x
     moved = np.split(low + t * (high - low), np.cumsum([line.shape[1] for line in lines])[:-1], axis=1)
     return [line[:, np.append(True, np.abs(np.diff(line, axis=1)).sum(axis=0) > 0)] for line in moved]
+
+
+def _without_jumps(zero: NDArray[np.bool_], line: Floats) -> list[Floats]:
+    """The stretches of a line (2, point) on which its function is zero, and does not jump."""
+    cuts = np.flatnonzero(np.diff(zero)) + 1
+    parts = np.split(np.arange(len(zero)), cuts)
+    return [line[:, part] for part in parts if zero[part[0]]]
 
 
 def _pieces(box: Box, key: CurveName, points: Floats, step: float) -> Iterator[Curve]:
@@ -122,20 +133,30 @@ def _pieces(box: Box, key: CurveName, points: Floats, step: float) -> Iterator[C
         if not state[start]:
             continue
         run, ends = points[:, start:stop], ["closed", "closed"]
+        left = [False, False]
         for side, (end, outside) in enumerate(((start, start - 1), (stop - 1, stop))):
             if 0 <= outside < len(state):
                 ends[side], point = _end(box, key, points[:, end], points[:, outside], state[start])
                 if np.abs(point - points[:, end]).max() > 1e-12:
                     run = np.column_stack([run, point] if side else [point, run])
             elif not closed:
-                ends[side] = "box"
+                left[side] = bool(((points[:, end] > 0) & (points[:, end] < 1)).all())
+                ends[side] = _left(box, key, run, side) if left[side] else "box"
         if run.shape[1] > 1:
             run = _denser(box, key, run, (ends[0], ends[1]), step)
             V = event_at(box, key, run).V
-            for met, at in zip(ends, (0, -1), strict=True):
-                V[at] = np.inf if met.endswith("infinity") else 0.0 if met.endswith("rest") else V[at]
+            for met, at, inside in zip(ends, (0, -1), left, strict=True):
+                if not inside:
+                    V[at] = np.inf if met.endswith("infinity") else 0.0 if met.endswith("rest") else V[at]
             x, y = box.real(run)
             yield Curve(NAMES[key], x, y, V, bool(state[start] == 2), (ends[0], ends[1]))
+
+
+def _left(box: Box, key: CurveName, run: Floats, side: int) -> str:
+    """What a curve goes to whose speed leaves V > 0 within the last cell of the grid."""
+    V = event_at(box, key, run[:, ::-1] if side else run).V
+    own = "capsize" if "meet" in key else "weave"
+    return f"{own} at infinity" if V[0] > V[min(2, len(V) - 1)] else f"{own} at rest"
 
 
 def _end(box: Box, key: CurveName, inside: Floats, outside: Floats, state: int) -> tuple[str, Floats]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,18 +13,28 @@ from numpy.typing import NDArray
 from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.polynomials import derivative, value
-from bikestab.region.skeleton import CurveName, Skeleton, curve_functions, reduced
+from bikestab.region.sides import sides
+from bikestab.region.skeleton import CurveName, Skeleton, in_units, reduced, units
 from bikestab.roots import positive_roots
 from bikestab.routh import conditions
 from bikestab.speeds import intervals_of
 
+_UNIT_SAMPLES = 17  # of the box, per axis
 
-class Box(NamedTuple):
+
+@dataclass(frozen=True)
+class Box:
     """The box with coordinates (u, v) from 0 to 1; ``ends`` are its x and y, shape (2, 2)."""
 
     family: Family
     ends: Floats
     V: tuple[float, float]
+
+    @cached_property
+    def units(self) -> NDArray[np.intp]:
+        """The units in which the tables of its designs are of middling size."""
+        nodes = np.linspace(0, 1, _UNIT_SAMPLES)
+        return units(self.table(np.array(np.meshgrid(nodes, nodes))))
 
     def real(self, points: Floats) -> Floats:
         low, high = self.ends.T.reshape(2, 2, *(1,) * (points.ndim - 1))
@@ -31,7 +44,13 @@ class Box(NamedTuple):
         return self.family.table(*self.real(points))
 
     def value(self, key: CurveName, points: Floats) -> Floats:
-        return curve_functions(self.table(points), [key])[key]
+        return self.values(points, [key])[key]
+
+    def values(
+        self, points: Floats, names: Sequence[CurveName] = get_args(CurveName)
+    ) -> dict[CurveName, Floats]:
+        """The functions of curves, whose scale is the same at all points of the box."""
+        return sides(in_units(self.table(points), self.units), names)
 
 
 class Event(NamedTuple):
@@ -129,8 +148,7 @@ def _common_root(key: CurveName, found: Skeleton) -> Floats:
         "meet": (p0, q),
         "slow meet": (p0, p1),
     }[key]
-    signs = np.where(np.arange(len(candidates)) % 2, -1.0, 1.0)[:, np.newaxis]
-    x = np.concatenate([positive_roots(candidates), -positive_roots(candidates * signs)])
+    x = positive_roots(candidates)
     if not len(x):
         return np.full(p0.shape[1], np.nan)
     with np.errstate(invalid="ignore"):

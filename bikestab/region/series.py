@@ -31,7 +31,8 @@ def zeros(values: Floats) -> tuple[NDArray[np.intp], Floats]:
     series: Floats = np.linalg.solve(vander, relative.T).T.astype(float)
     series[np.abs(series) < _NOISE] = 0
     degree = NODES - 1 - np.argmax(series[:, ::-1] != 0, axis=1)
-    possible = np.abs(series[:, 0]) <= np.abs(series[:, 1:]).sum(axis=1) * (1 + 1e-9)
+    possible = series.any(axis=1)
+    possible &= np.abs(series[:, 0]) <= np.abs(series[:, 1:]).sum(axis=1) * (1 + 1e-9)
     rows, found = [np.empty(0, np.intp)], [np.empty(0)]
     # np.unique would import numpy.ma, which takes longer than this
     for n in np.flatnonzero(np.bincount(degree[possible & (degree > 0)])):

@@ -102,9 +102,20 @@ def test_ends_meet_what_they_name(curves):
 def test_nothing_is_missing(curves, which):
     """Every end of a stable range on random lines, found without the grid, lies on a traced closing curve."""
     bicycle = {"1981": DIKAREV, "2007": MEIJAARD}[which[0]].with_delta(which[1])
+    assert_ends_of_ranges_are_on(curves[which], Family(bicycle))
+
+
+@pytest.mark.parametrize("delta", [1e-12, 1e-6, 1e-3])
+def test_nothing_is_missing_at_little_damping(delta):
+    """Where events at V > 0 and at V < 0 nearly fall together."""
+    family = Family(DIKAREV.with_delta(delta))
+    assert_ends_of_ranges_are_on(trace(family, LAM, SIGMA, samples=241), family)
+
+
+def assert_ends_of_ranges_are_on(found, family):
     lam = np.random.default_rng(3).uniform(0, 0.6, 40)
-    closing = [curve for curve in curves[which] if curve.closes or "infinity" in curve.name]
-    for value, ranges in zip(lam, stable_ranges(Family(bicycle), *SIGMA, x=lam), strict=True):
+    closing = [curve for curve in found if curve.closes or "infinity" in curve.name]
+    for value, ranges in zip(lam, stable_ranges(family, *SIGMA, x=lam), strict=True):
         for end in {x for ends in ranges for x in ends} - set(SIGMA):
             gaps = []
             for curve in closing:
