@@ -13,8 +13,8 @@ from bikestab.paper1981.study import plain
 from bikestab.paper1981.study import study as _study
 
 TINY = Sampling(
-    grid=60, lines=24, grid_damping=12, grid_readings=15, machines=8, grid_machines=7, search=15, picture=61,
-    cells=8,
+    grid=60, lines=24, grid_damping=12, grid_readings=15, machines=8, grid_machines=7, search=15, points=61,
+    picture=61, cells=8,
 )  # fmt: skip
 SPEEDS = np.concatenate([np.linspace(0.05, 15, 300), np.geomspace(15.5, 1e5, 100)])
 

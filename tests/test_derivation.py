@@ -199,11 +199,20 @@ def check_capsize(text):
     yield derived.same(found["Vc**2"], -f0 / f)
 
 
+def check_front(text):
+    """The printed d is an identity exactly if the frame, of length L, ends on the steering axis."""
+    lam, d, L, phi0, R, c1 = sp.symbols("lam d L phi0 R c1")
+    found = page.formulas(text, {"lam": lam})
+    printed = found["h2"] * sp.sin(lam) + (found["l2"] - c) * sp.cos(lam) - c1
+    on_axis = L * sp.cos(phi0 + lam) + R * sp.sin(lam) - c * sp.cos(lam) - c1
+    yield sp.simplify(sp.expand_trig(printed - d - on_axis)) == 0
+
+
 CHECKS = {
     "definitions": check_definitions, "pitch": check_pitch, "positions": check_positions,
     "energies": check_energies, "lagrange": check_lagrange, "rolling": check_rolling,
     "coefficients": check_coefficients, "table": check_table, "alphas": check_alphas,
-    "speeds": check_speeds, "capsize": check_capsize,
+    "speeds": check_speeds, "capsize": check_capsize, "front": check_front,
 }  # fmt: skip
 
 

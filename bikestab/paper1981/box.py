@@ -46,12 +46,13 @@ class Sampling:
     machines: int = 400  # random ones
     grid_machines: int = 21
     search: int = 161  # what the search for the best designs starts from
+    points: int = 201  # in space, for balls; half as many designs for controllability
     picture: int = 401
     cells: int = 48  # of the mesh drawn in three dimensions
 
 
 FULL = Sampling()
-QUICK = Sampling(200, 60, 24, 30, 60, 11, 31, 121, 20)
+QUICK = Sampling(200, 60, 24, 30, 60, 11, 31, 81, 121, 20)
 
 
 def middles(ends: Range, n: int) -> Floats:

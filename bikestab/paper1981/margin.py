@@ -14,7 +14,9 @@ from bikestab.design.criteria import Wanted
 from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.paper1981.box import LAM, PAPER_BOX, SIGMA, DesignBox, Range, V
+from bikestab.paper1981.controllability import Controllability, controllability
 from bikestab.paper1981.forks import bent_forwards, offset
+from bikestab.paper1981.largest_ball import Ball, largest_ball
 
 JUDGED: dict[str, Range | None] = {
     "at each design's best speed": None,
@@ -64,6 +66,8 @@ class Margin:
     optima: list[Optimum]
     judged_by: Apart
     forwards: GridMargin
+    ball: Ball
+    controllability: list[Controllability]
 
 
 @cache
@@ -77,8 +81,11 @@ def whole_box(bicycle: Bicycle) -> Wanted:
     return Wanted(Family(bicycle), LAM, SIGMA, V_max=V[1])
 
 
-def margin(bicycle: Bicycle, grid: int) -> Margin:
-    """The best designs by width and by decay, each searched for in the paper's box."""
+def margin(bicycle: Bicycle, grid: int, points: int) -> Margin:
+    """The best designs by width, by decay and by distance from the boundary, searched for in the paper's box.
+
+    The search starts from ``grid`` designs per axis; balls and controllability are from ``points`` per axis.
+    """
     optima: list[Optimum] = []
     for words, speeds in JUDGED.items():
         best = searched(replace(whole_box(bicycle), judged=speeds), grid)
@@ -88,7 +95,11 @@ def margin(bicycle: Bicycle, grid: int) -> Margin:
             optima.append({"criterion": f"fastest decay {words}", **best.fastest_decay})
     designs = [(optimum["lam"], optimum["sigma"]) for optimum in optima[:2]]
     _, forwards = margins_on_grid(bicycle, grid)
-    return Margin(optima, Apart(_sides_apart(designs, PAPER_BOX)), forwards)
+    ball = largest_ball(bicycle, points)
+    named = {optimum["criterion"]: (optimum["lam"], optimum["sigma"]) for optimum in optima[:2]}
+    named["largest ball"] = ball.lam, ball.sigma
+    reached = controllability(bicycle, points // 2, named)
+    return Margin(optima, Apart(_sides_apart(designs, PAPER_BOX)), forwards, ball, reached)
 
 
 def margins_on_grid(bicycle: Bicycle, n: int, box: DesignBox = PAPER_BOX) -> tuple[GridMargin, GridMargin]:

@@ -118,7 +118,7 @@ def study(bicycle: Bicycle, sampling: Sampling = FULL, progress: Progress = lamb
     finite = finite_interval(bicycle, designs, sampling)
     wide = widening(bicycle, designs, 5 * sampling.picture)
     progress("conclusion 3")
-    best = margin(bicycle, sampling.search)
+    best = margin(bicycle, sampling.search, sampling.points)
     progress("conclusion 4")
     damped = damping(bicycle, sampling.grid_damping)
     progress("other readings of the printed values")

@@ -132,7 +132,22 @@ def margin_tables(n: Margin) -> Tables:
     return {
         "optima": table([*head, "growth rate [1/s]", "at V [m/s]", "where"], rows),
         "optima_forwards": table(columns, forwards),
+        "controllability": _controllability(n),
     }
+
+
+def _controllability(n: Margin) -> str:
+    """Modal controllability of the best design, and of those of greatest margin with their ranks."""
+    rows = []
+    for at in n.controllability:
+        where = f"λ = {number(at.lam, '.3f')}, σ = {number(at.sigma, '.3f')}"
+        best = f"{number(at.controllability, '.4f')} at {where}"
+        margins = [
+            f"{number(r.controllability, '.4f')} ({number(r.better_than, '3p')})" for r in at.of_margins
+        ]
+        rows.append([f"{at.V:g}", str(at.designs), best, *margins])
+    head = ["V [m/s]", "stable designs", "best of them", *(r.design for r in n.controllability[0].of_margins)]
+    return table(head, rows)
 
 
 def damping_tables(n: Damping) -> Tables:
