@@ -18,9 +18,14 @@ from numpy.typing import NDArray
 
 from bikestab.model import Floats
 
-# What Newton's step leaves of the product's coefficients is the second-order terms of that step; the
-# split is good where these are no more than the rounding of a few operations.
-ROUNDING = 8 * np.finfo(float).eps
+# What Newton's step leaves of the product's coefficients is the second-order terms of that step; the split is
+# good where they are within this share of the coefficients.
+SECOND_ORDER = 2.0**-64
+SETTLED = 2.0**-32  # the same of a second step, by how far it moves the factors
+# Two quadratics whose resultant is below this share of their coefficients nearly have a root in common, and
+# rounding moves them; so it does the roots of one that are nearer than the root of this share of their size.
+COMMON = 2.0**-24
+NEAR = 2.0**-26
 
 
 class Factors(NamedTuple):
@@ -30,6 +35,14 @@ class Factors(NamedTuple):
     q: Floats
     r: Floats
     t: Floats
+
+
+class Quadratic(NamedTuple):
+    """s² + 2 half s + q; its roots are −half ± √square, square = half² − q."""
+
+    half: Floats
+    square: Floats
+    q: Floats
 
 
 class _Depressed(NamedTuple):
@@ -67,15 +80,38 @@ def split(a: Floats, b: Floats, c: Floats, d: Floats) -> Factors:
 def polished(f: Factors, a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Factors, NDArray[np.bool_]]:
     """One step of Newton's method on the equations that the product's coefficients give (Bairstow).
 
-    Also where its result is good: where the equations' second-order terms are within rounding.
+    Also where its result is good: where the equations' second-order terms are within rounding, and the
+    quadratics have no root nearly in common.
     """
     p, q, r, t = f
     products = p * r, p * t, q * r, q * t
-    step = _newton_step(f, _residuals(f, products, a, b, c, d))
-    good = _second_order_is_small(f, products, step)
+    step, resultant = _newton_step(f, _residuals(f, products, a, b, c, d))
+    good = _second_order_is_small(f, products, step, resultant)
     for x, dx in zip(f, step, strict=True):
         dx += x
     return step, good
+
+
+def settled(f: Factors, g: Factors) -> NDArray[np.bool_]:
+    """Where two splits are the same but for SETTLED of the largest root, without a root nearly in common."""
+    p, q, r, t = f
+    size = np.abs(p * r) + np.abs(q) + np.abs(t)
+    m, n = p - r, q - t
+    apart = np.abs(q * m * m - p * m * n + n * n) >= COMMON * size * size
+    dp, dq, dr, dt = (np.abs(x - y) for x, y in zip(f, g, strict=True))
+    return apart & (np.maximum(dp, dr) <= SETTLED * np.sqrt(size)) & (np.maximum(dq, dt) <= SETTLED * size)
+
+
+def quadratic(p: Floats, q: Floats) -> tuple[Quadratic, NDArray[np.bool_]]:
+    """The quadratic s² + p s + q, and where its roots are so far apart that rounding does not move them.
+
+    Uses p up.
+    """
+    p *= 0.5
+    square = p * p
+    least = square * NEAR
+    square -= q
+    return Quadratic(p, square, q), np.abs(square) >= least
 
 
 def _depressed(a: Floats, b: Floats, c: Floats, d: Floats) -> _Depressed:
@@ -192,8 +228,8 @@ def _residuals(
     return _Residuals(g0, g1, g2, g3)
 
 
-def _newton_step(f: Factors, residuals: _Residuals) -> Factors:
-    """(dp, dq, dr, dt) by Cramer's rule; uses the residuals up."""
+def _newton_step(f: Factors, residuals: _Residuals) -> tuple[Factors, Floats]:
+    """(dp, dq, dr, dt) by Cramer's rule, and the determinant; uses the residuals up."""
     p, q, r, t = f
     g0, g1, g2, g3 = residuals
     m, n = p - r, q - t
@@ -214,11 +250,16 @@ def _newton_step(f: Factors, residuals: _Residuals) -> Factors:
     m *= dp
     dt = np.add(g1, m, out=g1)
     dt -= dq
-    return Factors(dp, dq, dr, dt)
+    return Factors(dp, dq, dr, dt), det
 
 
-def _second_order_is_small(f: Factors, products: tuple[Floats, ...], step: Factors) -> NDArray[np.bool_]:
-    """Where dp dr, dp dt + dq dr and dq dt are within rounding of the sums that they are left out of."""
+def _second_order_is_small(
+    f: Factors, products: tuple[Floats, ...], step: Factors, resultant: Floats
+) -> NDArray[np.bool_]:
+    """Where dp dr, dp dt + dq dr and dq dt are within rounding of the sums that they are left out of.
+
+    And where the resultant is not small; uses it up.
+    """
     dp, dq, dr, dt = step
     w = np.empty_like(dp)
     pr, pt, qr, qt = (np.abs(x, out=x) for x in products)
@@ -227,7 +268,10 @@ def _second_order_is_small(f: Factors, products: tuple[Floats, ...], step: Facto
     pt += qr
     second = dp * dt
     second += np.multiply(dq, dr, out=w)
-    good = _small(np.multiply(dp, dr, out=w), pr)
+    least = pr * pr
+    least *= COMMON
+    good = np.abs(resultant, out=resultant) >= least
+    good &= _small(np.multiply(dp, dr, out=w), pr)
     good &= _small(second, pt)
     good &= _small(np.multiply(dq, dt, out=w), qt)
     return good
@@ -235,5 +279,5 @@ def _second_order_is_small(f: Factors, products: tuple[Floats, ...], step: Facto
 
 def _small(x: Floats, size: Floats) -> NDArray[np.bool_]:
     """Where |x| is within rounding of ``size``; both are overwritten."""
-    size *= ROUNDING
+    size *= SECOND_ORDER
     return np.abs(x, out=x) <= size

@@ -1,17 +1,20 @@
 """(table, V) → eigenvalues and growth rate, without a matrix per point.
 
-The quartic is split into two real quadratics by closed formulas and one step of Newton's method. Where
-one step is not enough (three eigenvalues nearly meet, or two pairs do) a matrix's eigenvalues are used
-after all; none of the points of a usual map are such.
+The quartic is split into two real quadratics by closed formulas and one step of Newton's method. Where that
+is not enough, because eigenvalues nearly meet, it is done again in twice double precision; hardly any
+points of a usual map are such.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bikestab.coalescing import coalescing_quadratics
 from bikestab.model import Floats
-from bikestab.quartic import Factors, polished, split
+from bikestab.quartic import Factors, Quadratic, polished, quadratic, settled, split
 from bikestab.routh import coefficients_at
 
 
@@ -19,23 +22,22 @@ def growth_rate_of(table: Floats, V: ArrayLike) -> Floats:
     """The largest real part of the eigenvalues [s⁻¹] at the speeds V [m/s].
 
     ``table`` has shape (5, 4, *shape) and V broadcasts against ``shape``. inf where p4 = 0, since
-    an eigenvalue is then infinite. Where two eigenvalues meet, rounding of the coefficients moves
-    them by the square root of itself, and so does this: by some 1e-8 of their size.
+    an eigenvalue is then infinite.
     """
-    p, q, r, t = quadratic_factors(table, V)
+    one, other = quadratics(table, V)
     with np.errstate(all="ignore"):
-        growth = np.maximum(_largest_real_part(p, q), _largest_real_part(r, t))
+        growth = np.maximum(_largest_real_part(one), _largest_real_part(other))
     return np.where(np.isnan(growth), np.inf, growth)
 
 
 def eigenvalues_of(table: Floats, V: ArrayLike) -> NDArray[np.complex128]:
     """The four eigenvalues [s⁻¹] at the speeds V [m/s], in no particular order; shape (4, *shape)."""
-    p, q, r, t = quadratic_factors(table, V)
+    one, other = quadratics(table, V)
     with np.errstate(all="ignore"):
-        return np.array([*_roots(p, q), *_roots(r, t)])
+        return np.array([*_roots(one), *_roots(other)])
 
 
-def quadratic_factors(table: Floats, V: ArrayLike) -> Factors:
+def quadratics(table: Floats, V: ArrayLike) -> tuple[Quadratic, Quadratic]:
     """Two real quadratics whose product is the characteristic polynomial divided by p4.
 
     NaN where p4 = 0.
@@ -45,47 +47,42 @@ def quadratic_factors(table: Floats, V: ArrayLike) -> Factors:
         p0, p1, p2, p3, _ = coefficients_at(table / table[4, 0], V)  # p4 has no power of V
         a, b, c, d = (np.atleast_1d(p) for p in (p3, p2, p1, p0))
         f, good = polished(split(a, b, c, d), a, b, c, d)
+        if not np.all(good):
+            poor = ~good
+            rough = Factors(*(x[poor] for x in f))
+            fine, _ = polished(rough, a[poor], b[poor], c[poor], d[poor])
+            good[poor] = settled(rough, fine)
+            _put(f, poor, fine)
+        one, apart = quadratic(f.p, f.q)
+        good &= apart
+        other, apart = quadratic(f.r, f.t)
+        good &= apart
     if not np.all(good):
-        _replace(f, ~good, *(x[~good] for x in (a, b, c, d)))
-    return Factors(*(x.reshape(np.shape(p0)) for x in f))
+        poor = ~good
+        padded = table.reshape(5, 4, *(1,) * (good.ndim - table.ndim + 2), *table.shape[2:])
+        cells = np.broadcast_to(padded, (5, 4, *good.shape))[:, :, poor]
+        _put((*one, *other), poor, coalescing_quadratics(cells, None, np.broadcast_to(V, good.shape)[poor]))
+    shape = np.shape(p0)
+    return Quadratic(*(x.reshape(shape) for x in one)), Quadratic(*(x.reshape(shape) for x in other))
 
 
-def _replace(f: Factors, poor: NDArray[np.bool_], a: Floats, b: Floats, c: Floats, d: Floats) -> None:
-    """Put the factors that a matrix's eigenvalues give where the split was poor.
-
-    That is where three or four eigenvalues nearly meet, or differ greatly in size.
-    """
-    known = np.isfinite(a) & np.isfinite(b) & np.isfinite(c) & np.isfinite(d)
-    companion = np.zeros((len(a), 4, 4))
-    companion[:, [1, 2, 3], [0, 1, 2]] = 1
-    companion[:, 0] = -np.stack([a, b, c, d], axis=1)
-    companion[~known] = 0
-    z = np.linalg.eigvals(companion).astype(complex).T
-    z = np.take_along_axis(z, np.lexsort((z.real, np.abs(z.imag)), axis=0), axis=0)  # pairs side by side
-    with np.errstate(all="ignore"):
-        pairs = Factors(-(z[0] + z[1]).real, (z[0] * z[1]).real, -(z[2] + z[3]).real, (z[2] * z[3]).real)
-        stepped, good = polished(pairs, a, b, c, d)
-    for out, rough, fine in zip(f, pairs, stepped, strict=True):
-        out[poor] = np.where(known, np.where(good, fine, rough), np.nan)
+def _put(arrays: Iterable[Floats], cells: NDArray[np.bool_], values: Iterable[Floats]) -> None:
+    for out, new in zip(arrays, values, strict=True):
+        out[cells] = new
 
 
-def _largest_real_part(p: Floats, q: Floats) -> Floats:
-    half = 0.5 * p
-    root = half * half
-    root -= q
-    root = np.sqrt(np.maximum(root, 0))
-    root -= half
+def _largest_real_part(f: Quadratic) -> Floats:
+    root = np.sqrt(np.maximum(f.square, 0))
+    root -= f.half
     return root
 
 
-def _roots(p: Floats, q: Floats) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    half = 0.5 * p
-    square = half * half - q
+def _roots(f: Quadratic) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    half, square, q = f
     root = np.sqrt(np.abs(square))
     # real: the larger one in size first, the other as q divided by it
     large = -(half + np.copysign(root, half))
-    with np.errstate(all="ignore"):
-        small = np.where(large == 0, 0, q / large)
+    small = np.where(large == 0, 0, q / large)
     real = square >= 0
     return (
         np.where(real, large, -half + 1j * root),

@@ -119,8 +119,8 @@ def _rank(table: Floats, V: float) -> int:
 def in_slots(s: NDArray[np.complex128], real: int, tilt: int) -> NDArray[np.complex128]:
     """Eigenvalues (4, n) ordered by the slots of a stretch.
 
-    Within some 1e-8 of a coalescence rounding may have made two real ones of a pair or the reverse; they
-    stay as they are and only take the slots of what they are in truth.
+    Within rounding of a coalescence a pair may have come out as two real ones or the reverse; they stay as
+    they are and only take the slots of what they are in truth.
     """
 
     def by(*keys: Floats) -> NDArray[np.complex128]:

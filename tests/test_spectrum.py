@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import coefficients_at
-from bikestab.spectrum import eigenvalues_of, growth_rate_of, quadratic_factors
+from bikestab.spectrum import eigenvalues_of, growth_rate_of, quadratics
 from tests.references.generate_speeds import roots
 from tests.strategies import lams, machines, sigmas, speeds
 
@@ -17,6 +17,7 @@ EPS = np.finfo(float).eps
 # What the eigenvalues may be: exact for coefficients wrong by 128 ε ρ^(4−k), ρ the largest eigenvalue; a
 # k-fold eigenvalue so moves by some (128 ε)^(1/k) ρ. A matrix's eigenvalues are no better.
 BACKWARD = 128 * EPS
+ROOT_EPS = EPS**0.5  # of the largest eigenvalue: how right each is where two meet, or two pairs
 COALESCENCE = 0.68428307889246  # m/s, where two real eigenvalues of the benchmark bicycle meet
 
 
@@ -71,13 +72,46 @@ def backward_error(p, s):
         )
 
 
+def forward_error(p, s):
+    """The largest distance between an eigenvalue and its nearest in 60 digits, by the largest one's size."""
+    with mp.workdps(60):
+        exact = roots([mpf(float(x)) for x in p])
+        distance = np.array([[float(abs(mp.mpc(complex(x)) - y)) for y in exact] for x in s])
+        largest = float(max(abs(y) for y in exact)) or 1.0
+    return max(distance.min(axis=0).max(), distance.min(axis=1).max()) / largest
+
+
 def check(p):
     """Everything that is promised of one polynomial."""
     growth, s = float(growth_rate_of(table_of(p), 0.0)), eigenvalues_of(table_of(p), 0.0)
     expected, tolerance = exact_growth(p)
     assert abs(growth - expected) <= tolerance
     assert backward_error(p, s) <= BACKWARD
-    assert growth == pytest.approx(s.real.max(), abs=EPS * np.abs(s).max())
+    # −half + root, and q divided by the other eigenvalue, are rounded once or twice each
+    assert growth == pytest.approx(s.real.max(), abs=2 * EPS * np.abs(s).max())
+
+
+@pytest.mark.parametrize("kind", ["two real", "two imaginary", "pair and real", "two pairs"])
+def test_where_two_meet(kind):
+    """√ε of the largest eigenvalue, whose distance from another is 1e-16 … 1e-2 of it."""
+    rng = np.random.default_rng(3)
+    for _ in range(40):
+        x, y, z = rng.uniform(0.2, 1, 3) * rng.choice([-1, 1], 3)
+        near = 10 ** rng.uniform(-16, -2)
+        third, fourth = (x + 1.3, x - 1.7) if rng.random() < 0.5 else (complex(z, y), complex(z, -y))
+        s = {
+            "two real": (x, x * (1 + near), third, fourth),
+            "two imaginary": (complex(x, near), complex(x, -near), third, fourth),
+            "pair and real": (complex(x, near), complex(x, -near), x + 0.7, x - 0.4),
+            "two pairs": (
+                complex(x, y),
+                complex(x, -y),
+                complex(x + near, y + near),
+                complex(x + near, -y - near),
+            ),
+        }[kind]
+        p = coefficients_of(*(mp.mpmathify(each) for each in s))
+        assert forward_error(p, eigenvalues_of(table_of(p), 0.0)) <= ROOT_EPS
 
 
 DEGENERATE = {
@@ -201,7 +235,8 @@ def test_factors_multiply_to_the_polynomial(machine, lam, sigma):
     table = characteristic_table(Bicycle.from_mapping(machine), lam, sigma)[..., np.newaxis]
     V = np.linspace(0, 50, 26)
     p0, p1, p2, p3, p4 = coefficients_at(table, V)
-    p, q, r, t = quadratic_factors(table, V)
+    (half, _, q), (other_half, _, t) = quadratics(table, V)
+    p, r = 2 * half, 2 * other_half
     size = np.abs(eigenvalues_of(table, V)).max(axis=0)
     for k, got, expected in ((3, p + r, p3), (2, q + t + p * r, p2), (1, p * t + q * r, p1), (0, q * t, p0)):
         assert np.all(np.abs(got - expected / p4) <= BACKWARD * size ** (4 - k))
