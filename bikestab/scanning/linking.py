@@ -30,21 +30,33 @@ class Direction:
         self._borders: dict[str, tuple[Floats, Indices]] = {}  # last rows of tiles, last column
 
     def add(self, place: tuple[int, int], V: Floats) -> None:
+        """Take in the roots (λ, σ, root) of the tile that begins at ``place``; tiles come row by row."""
         sheet, number = self._local(V)
         first = self._first[place] = len(self._count)
         there = sheet >= 0
         self._count += np.bincount(sheet[there], minlength=number).tolist()
         self._sum += np.bincount(sheet[there], _place(V[there]), minlength=number).tolist()
-        if not self.linked:
-            return
-        sheet = np.where(there, sheet + first, -1)
+        if self.linked:
+            sheet = np.where(there, sheet + first, -1)
+            self._note_within(sheet)
+            self._note_across(place[1], V, sheet)
+
+    def _note_within(self, sheet: Indices) -> None:
+        """Which sheets of a tile share a cell, and which have neighbours."""
         shared = _pairs(sheet, sheet)
         self._overlap.append(shared)
         self._touch += [shared, _pairs(sheet[1:], sheet[:-1]), _pairs(sheet[:, 1:], sheet[:, :-1])]
-        if place[1] == 0:
+
+    def _note_across(self, column: int, V: Floats, sheet: Indices) -> None:
+        """Which sheets touch or continue those of the tiles above and to the left.
+
+        ·  row            its last row of cells is kept until the tile below comes,
+        column  tile      and the last column of cells until the next tile of the row
+        """
+        if column == 0:
             self._borders.pop("column", None)  # a new row of tiles: none is before this one
-        ours = {f"row {place[1]}": (V[-1:], sheet[-1:]), "column": (V[:, -1:], sheet[:, -1:])}
-        for axis, key, edge in ((0, f"row {place[1]}", np.s_[:1]), (1, "column", np.s_[:, :1])):
+        ours = {f"row {column}": (V[-1:], sheet[-1:]), "column": (V[:, -1:], sheet[:, -1:])}
+        for axis, key, edge in ((0, f"row {column}", np.s_[:1]), (1, "column", np.s_[:, :1])):
             if key in self._borders:
                 strips = zip(self._borders[key], (V[edge], sheet[edge]), strict=True)
                 strip_V, strip = (_side_by_side(pair, axis) for pair in strips)
@@ -146,23 +158,36 @@ def _single_valued(links: Indices, cell: Indices) -> Indices:
     given to the layer with the fewest steps to it. So a sheet may go on in another slot at the same
     speed, but it does not jump. Only layers that lie over themselves in turn do: they are cut by the
     order of their roots.
+
+        ──────╮ upper layer
+               )·····  lies nowhere over itself: cut where both layers are equally many steps away
+        ──────╯ lower layer
     """
     sheet = _connected(links, len(cell))
     _, over_itself = _rank(sheet, cell)
     if not over_itself.any():
         return sheet
-    inner = links[:, over_itself[links].all(axis=0)]
-    rank, still = _rank(_connected(inner, len(cell)), cell)
+    layer = _layers(links[:, over_itself[links].all(axis=0)], cell)
+    layer = _spread(layer, over_itself, links)
+    return _connected(links[:, layer[links[0]] == layer[links[1]]], len(cell))
+
+
+def _layers(links: Indices, cell: Indices) -> Indices:
+    """The layer of each root that the links reach, none with two roots in one cell."""
+    rank, still = _rank(_connected(links, len(cell)), cell)
     rank[~still] = 0
-    layer = _connected(inner[:, rank[inner[0]] == rank[inner[1]]], len(cell))
+    return _connected(links[:, rank[links[0]] == rank[links[1]]], len(cell))
+
+
+def _spread(layer: Indices, known: NDArray[np.bool_], links: Indices) -> Indices:
+    """The layer of the known root with the fewest steps to each; −1 where none can be reached."""
     from scipy.sparse.csgraph import dijkstra
 
     source = dijkstra(
-        _graph(links, len(cell)), directed=False, indices=np.flatnonzero(over_itself), unweighted=True,
+        _graph(links, len(layer)), directed=False, indices=np.flatnonzero(known), unweighted=True,
         return_predecessors=True, min_only=True,
     )[2]  # fmt: skip
-    layer = np.where(source >= 0, layer[np.maximum(source, 0)], -1)  # −1: it lies nowhere over itself
-    return _connected(links[:, layer[links[0]] == layer[links[1]]], len(cell))
+    return np.where(source >= 0, layer[np.maximum(source, 0)], -1)
 
 
 def _rank(sheet: Indices, cell: Indices) -> tuple[Indices, NDArray[np.bool_]]:
