@@ -15,10 +15,11 @@ from common import BICYCLE, BOX, DELTA, Report, Table, Task, measure, short
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
+from bikestab.critical import critical
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials
 from bikestab.scanning.sheets import Atlas, Roots, most_roots
-from bikestab.speeds import critical, intervals_between, intervals_of
+from bikestab.speeds import intervals_between, intervals_of
 
 TILE = (64, 128)  # λ and σ, as a scan has them
 SAMPLE = 200  # columns for numpy.roots

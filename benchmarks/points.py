@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle, preset_text
+from bikestab.critical import critical
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.notation import MEIJAARD
 from bikestab.routh import conditions, violated
 from bikestab.scanning.signs import violated_between
 from bikestab.scanning.tile import Tile, compute, field_values
-from bikestab.speeds import critical
 from bikestab.units import ANGLE, PURE, quantity
 
 SHAPE = (64, 128)  # λ and σ of a tile, as a large scan has them

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError, nearest
 from bikestab.limits import check_speed, check_tilt, check_trail
-from bikestab.model import MODELS, Floats, Model, characteristic_table
+from bikestab.model import MODELS, ExactTable, Floats, Model, exact_table
 from bikestab.units import ANGLE, PURE, SPEED, quantity, shown
 
 Given: TypeAlias = ArrayLike | None  # None: the bicycle's own
@@ -34,7 +34,7 @@ def design_of(bicycle: Bicycle, lam: Given, sigma: Given) -> tuple[Floats, Float
 
 def table_and_speeds(
     bicycle: Bicycle, V: ArrayLike, lam: Given, sigma: Given, model: Model, delta: Any
-) -> tuple[Floats, Floats]:
+) -> tuple[ExactTable, Floats]:
     """The table of the designs, and the speeds. InputError for what cannot be used or broadcast together."""
     if not isinstance(bicycle, Bicycle):
         hint = "Bicycle.load takes a name or a file, Bicycle.from_mapping parameters"
@@ -50,7 +50,7 @@ def table_and_speeds(
             f"{k} {x.shape}" for k, x in (("lam", tilt), ("sigma", trail), ("V", speeds)) if x.ndim
         )
         raise InputError(f"shapes do not broadcast together: {shapes}") from None
-    return characteristic_table(bicycle.with_delta(delta), tilt, trail, model=model), speeds
+    return exact_table(bicycle.with_delta(delta), tilt, trail, model=model), speeds
 
 
 def _checked(name: str, given: ArrayLike) -> Floats:

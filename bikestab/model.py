@@ -6,12 +6,16 @@ Equation numbers are those of Dikarev, Dikareva and Fufaev (1981); docs/theory.m
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+from collections.abc import Mapping
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.bicycle import Bicycle
+from bikestab.notation import reduced
+from bikestab.twofold import Twofold, sine_cosine
 
 if TYPE_CHECKING:
     from bikestab.machines import Machines
@@ -20,59 +24,78 @@ Floats: TypeAlias = NDArray[np.float64]
 Model = Literal["refined", "unrefined"]
 MODELS: tuple[Model, ...] = ("refined", "unrefined")
 
-# A sum of terms that cancel exactly leaves the rounding of its terms instead of zero: some 1e-16 of
-# their size for each operation on the way. The longest way from the parameters to an entry of the
-# table is about 16 operations; below that share of its terms' size a sum says nothing but its noise.
-# A two-mass-skate bicycle, whose V² term of p0 is zero, would otherwise get a capsize speed of 1e8.
-NOISE = 16 * np.finfo(float).eps
+# The error of an entry of the table, as a share of the summed sizes of its terms: up to 40 operations of 8 u²
+# each lie between the parameters and the entry, four times as many where 25 parameters are reduced first.
+ROUNDING = 2.0**-95
 
 
 class Coefficients(NamedTuple):
     """Coefficients of the equations of motion (1.5), without the damping term c δ/V of b1."""
 
-    a0: Tracked
-    a1: Tracked
-    a2: Tracked
-    a3: Tracked
-    a4: Tracked
-    a5: Tracked
-    b0: Tracked
-    b1: Tracked
-    b2: Tracked
-    b3: Tracked
-    b4: Tracked
-    b5: Tracked
-    b6: Tracked
+    a0: Twofold
+    a1: Twofold
+    a2: Twofold
+    a3: Twofold
+    a4: Twofold
+    a5: Twofold
+    b0: Twofold
+    b1: Twofold
+    b2: Twofold
+    b3: Twofold
+    b4: Twofold
+    b5: Twofold
+    b6: Twofold
 
 
-class Tracked:
-    """An array with the summed absolute values of the terms that formed it.
-
-    ``settled()`` is the value with exact zeros where it is no more than its terms' rounding.
+class ExactTable(NamedTuple):
+    """A table (5, 4, *shape) with bounds: the true one for exactly these inputs is within ``error`` of
+    value + rest, and ``value`` is the nearest double. Entries that are zero whatever the numbers are exact
+    zeros, without error.
     """
 
-    __slots__ = ("size", "value")
-    __array_ufunc__ = None  # an array times a Tracked is a Tracked
+    value: Floats
+    rest: Floats
+    error: Floats
 
-    def __init__(self, value: ArrayLike, size: ArrayLike | None = None) -> None:
-        self.value: Floats = np.asarray(value, dtype=float)
-        self.size: Floats = np.abs(self.value) if size is None else np.asarray(size)
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return self.value.shape
 
-    def __add__(self, other: Tracked) -> Tracked:
-        return Tracked(self.value + other.value, self.size + other.size)
+    def reshape(self, *shape: int) -> ExactTable:
+        """The same in another shape."""
+        return ExactTable(*(each.reshape(shape) for each in self))
 
-    def __sub__(self, other: Tracked) -> Tracked:
-        return Tracked(self.value - other.value, self.size + other.size)
+    def cells(self, chosen: Any) -> ExactTable:
+        """Some cells of a table (5, 4, cell)."""
+        return ExactTable(*(each[..., chosen] for each in self))
 
-    def __mul__(self, other: Tracked | float) -> Tracked:
-        if isinstance(other, Tracked):
-            return Tracked(self.value * other.value, self.size * other.size)
-        return Tracked(self.value * other, self.size * abs(other))
 
-    __rmul__ = __mul__
+def exact_table(
+    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"
+) -> ExactTable:
+    """The table of s^k V^j for arrays of λ [rad] and σ [1] that broadcast together, with bounds.
 
-    def settled(self) -> Floats:
-        return np.where(np.abs(self.value) <= NOISE * self.size, 0.0, self.value)
+    Formed in twice double precision: a sum of terms that cancel keeps what is left of them, however little.
+    What cancels identically is left out of the expressions, so that a two-mass-skate bicycle has no V² term
+    in p0. ``bicycle`` may be many machines, whose parameters broadcast against λ and σ; those of four
+    rigid bodies are reduced to two parts on the way. The damping is the bicycle's ``delta``.
+    Source: (2.1) of the paper, in real time and with ε = 1/V²; docs/theory.md, section 6.
+    """
+    table = np.zeros((3, 5, 4, *np.broadcast_shapes(np.shape(lam), np.shape(sigma), bicycle.shape)))
+    for index, entry in _entries(_letters(bicycle, lam, sigma, model)).items():
+        table[0, *index], table[1, *index] = entry.value, entry.rest
+        table[2, *index] = ROUNDING * entry.size
+    return ExactTable(*table)
+
+
+def characteristic_table(
+    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"
+) -> Floats:
+    """The table P[k, j] of s^k V^j for arrays of λ [rad] and σ [1] that broadcast together.
+
+    Returns an array of shape (5, 4, *shape): the doubles nearest to the entries of ``exact_table``.
+    """
+    return exact_table(bicycle, lam, sigma, model=model).value
 
 
 def coefficients(
@@ -84,75 +107,112 @@ def coefficients(
     ``model="unrefined"`` leaves the refinement of the paper's (1.2) out of the gravity terms.
     Source: (1.3), (1.5) and section 2 of the paper, with the OCR's subscripts repaired.
     """
-    if model not in MODELS:
-        raise ValueError(f"model is {model!r}, not one of {MODELS}")
-    p = bicycle
-    cos, sin = Tracked(np.cos(lam)), Tracked(np.sin(lam))
-    g, c = p.g, p.c
-
-    c1 = Tracked(np.asarray(sigma) * c) * cos
-    d = p.h2 * sin + Tracked(p.l2 - c, p.l2 + c) * cos - c1
-    C1 = Tracked(p.C1 / (p.R1 + 1 * (p.C1 == 0)))  # C1° and C2°: angular momentum per unit of speed;
-    C2 = Tracked(p.C2 / (p.R2 + 1 * (p.C2 == 0)))  # what does not spin may be a skate with R = 0
-    l = Tracked(p.m1 * p.l1) + Tracked(p.m2 * p.l2)  # noqa: E741  # the paper's letter
-    h = Tracked(p.m1 * p.h1) + Tracked(p.m2 * p.h2)
-    md = p.m2 * d
-    lc = l * c1 * (1 / c)
-    S = md + lc if model == "refined" else md
-
-    D2 = Tracked(p.D2)
-    J = md * d + p.A2 * sin * sin - 2 * D2 * sin * cos + p.B2 * cos * cos
-    J1 = Tracked(p.m1 * p.h1**2 + p.A1 + p.m2 * p.h2**2 + p.A2)
-    J2 = Tracked(p.m1 * p.l1**2 + p.B1 + p.m2 * p.l2**2 + p.B2)
-    J3 = p.h2 * md + p.A2 * sin - D2 * cos
-    J4 = p.l2 * md - D2 * sin + p.B2 * cos
-    J12 = Tracked(p.m1 * p.h1 * p.l1) + Tracked(p.D1) + Tracked(p.m2 * p.h2 * p.l2) - D2  # (1.3)
-
+    n = _letters(bicycle, lam, sigma, model)
+    c = n.c
     return Coefficients(
-        a0=c * J1,
-        a1=c * g * h,
-        a2=c * J3 + c1 * J12,
-        a3=(J12 + c * C2) * cos + c1 * (h + C1 + C2),
-        a4=c * g * S,
-        a5=(h + C1 + C2) * cos,
-        b0=c * J + 2 * c1 * J4 + c1 * c1 * J2 * (1 / c),
-        b1=J4 * cos + c1 * (md + J2 * cos * (1 / c) + lc),
-        b2=(md + C2 * sin + lc) * cos,
-        b3=c * g * S * sin,
-        b4=c * J3 + c1 * J12,
-        b5=c * C2 * cos + c1 * (C1 + C2),
-        b6=c * g * S,
+        a0=c * n.J1,
+        a1=c * n.g * n.h,
+        a2=c * n.M12,
+        a3=(n.Q + c * n.T) * n.cos,
+        a4=c * n.g * n.S,
+        a5=(n.h + n.C1 + n.C2) * n.cos,
+        b0=c * n.M22,
+        b1=n.N * n.cos,
+        b2=n.W * n.cos,
+        b3=c * n.g * n.S * n.sin,
+        b4=c * n.M12,
+        b5=c * n.T * n.cos,
+        b6=c * n.g * n.S,
     )  # (1.5)
 
 
-def characteristic_table(
-    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"
-) -> Floats:
-    """The table P[k, j] of s^k V^j for arrays of λ [rad] and σ [1] that broadcast together.
+def _letters(bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, model: Model) -> SimpleNamespace:
+    """The paper's letters, and what (1.5) is made of: see section 5 of docs/theory.md.
 
-    Returns an array of shape (5, 4, *shape). Entries that are nothing but the rounding of terms
-    which cancel are exact zeros (see ``NOISE``). The damping is the bicycle's ``delta``.
-    ``bicycle`` may be many machines, whose parameters broadcast against λ and σ.
-    Source: (2.1) of the paper, in real time and with ε = 1/V².
+    J1, M12 and M22 are the inertia matrix; Q, N and W are what a3, b1 and b2 have besides the wheels' spin
+    and cos λ; T is b5 without c cos λ. S and U are sums that the refinement leaves no difference in.
     """
-    a0, a1, a2, a3, a4, a5, b0, b1, b2, b3, b4, b5, b6 = coefficients(bicycle, lam, sigma, model=model)
-    c_delta = Tracked(bicycle.c * bicycle.delta)
-    entries = {
-        (4, 0): a0 * b0 - a2 * b4,
-        (3, 1): a0 * b1 + a2 * b5 - a3 * b4,
-        (3, 0): a0 * c_delta,
-        (2, 2): a0 * b2 + a3 * b5 - a5 * b4,
-        (2, 0): a2 * b6 + a4 * b4 - a0 * b3 - a1 * b0,
-        (1, 3): a5 * b5,
-        (1, 1): a3 * b6 - a1 * b1 - a4 * b5,
-        (1, 0): Tracked(0.0) - a1 * c_delta,
-        (0, 2): a5 * b6 - a1 * b2,
-        (0, 0): a1 * b3 - a4 * b6,
+    if model not in MODELS:
+        raise ValueError(f"model is {model!r}, not one of {MODELS}")
+    p = _numbers(bicycle)
+    sin, cos = sine_cosine(lam)
+    trail = Twofold(np.asarray(sigma))
+    C1, C2 = p.C1 / p.R1, p.C2 / p.R2  # C1° and C2°: angular momentum per unit of speed
+    mu = trail * cos  # c1/c
+    e = p.m2 * (p.l2 - p.c)
+    h = p.m1 * p.h1 + p.m2 * p.h2
+    l = p.m1 * p.l1 + p.m2 * p.l2  # noqa: E741  # the paper's letter
+
+    d = p.h2 * sin + (p.l2 - p.c - trail * p.c) * cos
+    J1 = p.m1 * p.h1 * p.h1 + p.A1 + p.m2 * p.h2 * p.h2 + p.A2
+    J2 = p.m1 * p.l1 * p.l1 + p.B1 + p.m2 * p.l2 * p.l2 + p.B2
+    J12 = p.m1 * p.h1 * p.l1 + p.D1 + p.m2 * p.h2 * p.l2 - p.D2
+    md = p.m2 * d
+    J = md * d + (p.A2 * sin * sin - 2 * p.D2 * sin * cos + p.B2 * cos * cos)
+    J3 = p.h2 * md + (p.A2 * sin - p.D2 * cos)
+    J4 = p.l2 * md + (p.B2 * cos - p.D2 * sin)  # (1.3)
+
+    turn = p.m2 * p.h2 * sin + cos * (e + trail * (p.m1 * p.l1 + e))  # m2 d + l c1/c
+    if model == "refined":
+        S, U = turn, cos * (e + trail * (p.m1 * p.l1 + e)) - p.m1 * p.h1 * sin  # U = S − h sin λ
+    else:
+        along = cos * (e - trail * p.c * p.m2)
+        S, U = p.m2 * p.h2 * sin + along, along - p.m1 * p.h1 * sin
+    return SimpleNamespace(
+        c=p.c, g=p.g, delta=p.delta, sin=sin, cos=cos, C1=C1, C2=C2, h=h, J1=J1, S=S, U=U,
+        M12=J3 + mu * J12,
+        M22=J + mu * (2 * J4 + mu * J2),
+        Q=J12 + trail * (p.c * h),
+        T=C2 + trail * (C1 + C2),
+        N=J4 + trail * (p.c * turn) + mu * J2,
+        W=turn + C2 * sin,
+        missing=None if model == "refined" else h * l * mu,
+    )  # fmt: skip
+
+
+def _entries(n: SimpleNamespace) -> dict[tuple[int, int], Twofold]:
+    """The entries (k, j) of the table, without terms that cancel identically.
+
+    The wheels' spins do so in p3 and in the V term of p1; p0 is a product but for the refinement.
+    """
+    c, cos = n.c, n.cos
+    along, weight = c * cos, c * n.g
+    turning = n.C1 * n.S + n.C2 * n.U  # in the V² term of p0
+    if n.missing is not None:
+        turning = turning - n.missing
+    spins = n.C1 + n.C2
+    return {
+        (4, 0): c * c * (n.J1 * n.M22 - n.M12 * n.M12),
+        (3, 1): along * (n.J1 * n.N - n.M12 * n.Q),
+        (3, 0): c * c * n.delta * n.J1,
+        (2, 2): along * (n.J1 * n.W - (n.h + spins) * n.M12 + cos * n.T * (n.Q + c * n.T)),
+        (2, 0): weight * c * (n.S * (2 * n.M12 - n.J1 * n.sin) - n.h * n.M22),
+        (1, 3): along * cos * ((n.h + spins) * n.T),
+        (1, 1): weight * cos * (n.Q * n.S - n.h * n.N),
+        (1, 0): weight * c * n.delta * (-n.h),
+        (0, 2): weight * cos * turning,
+        (0, 0): weight * weight * (-n.S * n.U),
     }
-    table = np.zeros((5, 4, *np.broadcast_shapes(np.shape(lam), np.shape(sigma), bicycle.shape)))
-    for index, entry in entries.items():
-        table[index] = entry.settled()
-    return table
+
+
+def _numbers(bicycle: Bicycle | Machines) -> SimpleNamespace:
+    """The paper's parameters; what does not spin gets a radius, for it may be a skate, with none."""
+    given: Mapping[str, Any] | None = getattr(bicycle, "bodies", None)
+    if given is None:
+        numbers = {name: Twofold(getattr(bicycle, name)) for name in _PARAMETERS}
+    else:
+        numbers = reduced({name: Twofold(value) for name, value in given.items()})
+        numbers = {name: x if isinstance(x, Twofold) else Twofold(x) for name, x in numbers.items()}
+    for i in "12":
+        still = 1 * (getattr(bicycle, f"C{i}") == 0)
+        numbers[f"R{i}"] = numbers[f"R{i}"] + still
+    return SimpleNamespace(**numbers)
+
+
+_PARAMETERS = (
+    "c", "g", "delta", "m1", "l1", "h1", "A1", "B1", "D1", "C1", "R1",
+    "m2", "l2", "h2", "A2", "B2", "D2", "C2", "R2",
+)  # fmt: skip
 
 
 def canonical_matrices(

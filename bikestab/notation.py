@@ -96,8 +96,8 @@ def _join(a: _Body, b: _Body) -> _Body:
     x, h = ((a[0] * a[i] + b[0] * b[i]) / m for i in (1, 2))
     xx, zz, xz = a[3] + b[3], a[4] + b[4], a[5] + b[5]
     for mass, dx, dh in ((a[0], a[1] - x, a[2] - h), (b[0], b[1] - x, b[2] - h)):
-        xx += mass * dh**2
-        zz += mass * dx**2
+        xx += mass * dh * dh
+        zz += mass * dx * dx
         xz += mass * dx * dh  # −∫ x z dm with z = −h
     return m, x, h, xx, zz, xz
 

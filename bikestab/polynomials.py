@@ -11,6 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
+from bikestab.twofold import Twofold
+
+Polynomial = list[Twofold | None]  # coefficients of V^0, V^1, …; None where it is zero in all cells
 
 EPS = float(np.finfo(float).eps)
 # A sum of products of table entries, such as a coefficient of hurwitz3, that is no more than this share of
@@ -33,6 +36,28 @@ def value_and_slope(c: Floats, x: Floats) -> tuple[Floats, Floats]:
         slope = slope * x + out
         out = out * x + cj
     return out, slope
+
+
+def product_of(a: Polynomial, b: Polynomial) -> Polynomial:
+    """The product of polynomials in twice double precision; powers that none can have stay so."""
+    out: Polynomial = [None] * (len(a) + len(b) - 1)
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            if x is not None and y is not None:
+                before = out[i + j]
+                out[i + j] = x * y if before is None else before + x * y
+    while len(out) > 1 and out[-1] is None:
+        out.pop()
+    return out
+
+
+def difference_of(a: Polynomial, b: Polynomial) -> Polynomial:
+    """A − b of polynomials in twice double precision."""
+    out: Polynomial = []
+    for i in range(max(len(a), len(b))):
+        x, y = (p[i] if i < len(p) else None for p in (a, b))
+        out.append(x if y is None else -y if x is None else x - y)
+    return out
 
 
 def value_of_powers(c: Floats, powers: NDArray[np.bool_], x: Floats, shape: tuple[int, ...]) -> Floats:

@@ -31,7 +31,7 @@ class Interval(TypedDict):
 
 def interval_records(found: Intervals, *cell: int) -> list[Interval]:
     """The intervals of one cell of ``found``, by its indices, ascending."""
-    V1, V2, lower, upper = (values[cell].tolist() for values in found)
+    V1, V2, lower, upper = (values[cell].tolist() for values in found[:4])
     return [
         {
             "V1": V1[k],

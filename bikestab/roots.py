@@ -6,6 +6,7 @@ A polynomial is an array of coefficients of x^0, x^1, … along the first axis, 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.polynomials import derivative, used_powers, value, value_and_slope
@@ -77,6 +78,28 @@ def _bracketed(c: Floats) -> Floats:
     lo, hi = _bounds(c)
     knots, found = _sign_changes(c, lo, hi, _CLOSE)
     return np.sort(np.where(found, knots, np.nan), axis=0)
+
+
+def bracketed_root(c: Floats, low: Floats, high: Floats, sign: Floats) -> Floats:
+    """The one root of each polynomial (power, root) in low … high, whose sign is known at the upper end.
+
+    The ends may be 0 and inf. To a few units of the last place, if the root is not nearly a multiple one.
+    """
+    exponent = np.where(c == 0, -(1 << 20), np.frexp(c)[1])
+    a = np.where(low > 0, low, np.ldexp(1.0, -_exponent_above(exponent[::-1])))
+    b = np.where(np.isfinite(high), high, np.ldexp(1.0, _exponent_above(exponent)))
+    return _bracket(c, np.minimum(a, b), np.maximum(a, b), sign, _CLOSE)
+
+
+def _exponent_above(exponent: NDArray[np.int_]) -> NDArray[np.int_]:
+    """K with all roots below 2^k in size (Fujiwara 1916), from the exponents of coefficients."""
+    n = len(exponent) - 1 - np.argmax(exponent[::-1] > -(1 << 19), axis=0)  # degree of each cell
+    lead = np.take_along_axis(exponent, n[np.newaxis], axis=0)[0]
+    most = np.full(lead.shape, -1000)
+    for j, e in enumerate(exponent[:-1]):
+        below = -((lead - 1 - e) // np.maximum(n - j, 1))  # of the ratio's root, rounded up
+        most = np.where((j < n) & (e > -(1 << 19)), np.maximum(most, below), most)
+    return np.clip(most + 2, -1000, 1000)
 
 
 def _bounds(c: Floats) -> tuple[Floats, Floats]:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.model import Floats
-from bikestab.polynomials import product, settled, value_of_powers
+from bikestab.polynomials import Polynomial, difference_of, product_of, value_of_powers
+from bikestab.twofold import Twofold
 
+Rows = list[list[Twofold]]
 CONDITIONS = ("p0", "p1", "p2", "p3", "p4", "hurwitz3")  # bit k of ``violated`` is CONDITIONS[k]
 
 
@@ -73,16 +76,24 @@ def stable(table: Floats, V: ArrayLike) -> NDArray[np.bool_]:
 def condition_polynomials(table: Floats) -> dict[str, Floats]:
     """Each condition as a polynomial in V: coefficients of V^0, V^1, … along the first axis.
 
-    The products behind hurwitz3 can cancel exactly; what is left of them is treated as in ``model``.
+    The products behind hurwitz3 are formed in twice double precision, so that what cancels is zero and what
+    is left of it is right.
     """
     p0, p1, p2, p3, p4 = table
-    first = product(p1, product(p2, p3))
-    second = product(p4, product(p1, p1))
-    third = product(p0, product(p3, p3))
-    size = (
-        product(abs(p1), product(abs(p2), abs(p3)))
-        + product(abs(p4), product(abs(p1), abs(p1)))
-        + product(abs(p0), product(abs(p3), abs(p3)))
-    )
-    hurwitz3 = settled(first - second - third, size)
+    entries = [(k, j) for k in range(5) for j in range(4) if table[k, j].any()]
+    found = hurwitz3_of([[Twofold(a) for a in row] for row in table], entries)
+    hurwitz3 = np.zeros((10, *table.shape[2:]))
+    for j, a in enumerate(found):
+        if a is not None:
+            hurwitz3[j] = a.value
     return {"p0": p0, "p1": p1, "p2": p2, "p3": p3, "p4": p4, "hurwitz3": hurwitz3}
+
+
+def hurwitz3_of(rows: Rows, entries: Sequence[tuple[int, int]] | None = None) -> Polynomial:
+    """p1 (p2 p3 − p4 p1) − p0 p3² as a polynomial in V, from a table's entries (k, j) that there can be."""
+    p0, p1, p2, p3, p4 = (
+        [a if entries is None or (k, j) in entries else None for j, a in enumerate(row)]
+        for k, row in enumerate(rows)
+    )
+    inner = difference_of(product_of(p2, p3), product_of(p4, p1))
+    return difference_of(product_of(p1, inner), product_of(p0, product_of(p3, p3)))

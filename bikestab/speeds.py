@@ -1,4 +1,4 @@
-"""table → critical speeds and the exact intervals of stable speed.
+"""table → the exact intervals of stable speed, with bounds on their ends.
 
 For fixed (λ, σ) each condition of (2.2) is a polynomial in V. The border of the stable set is reached
 only where p0 or hurwitz3 changes sign, so these roots cut the speed axis into stretches that are
@@ -12,21 +12,33 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.model import Floats
-from bikestab.roots import positive_roots, sign_near_zero
-from bikestab.routh import CONDITIONS, condition_polynomials, conditions
+from bikestab.critical import Critical, as_exact, critical
+from bikestab.model import ExactTable, Floats
+from bikestab.routh import coefficients_at
 
 KINDS = ("none", "weave", "capsize", "rest", "unbounded")  # value k of ``lower`` and ``upper``
 NONE, WEAVE, CAPSIZE, REST, UNBOUNDED = range(5)
-_EMPTY = (np.nan, np.nan, NONE, NONE)  # what stands in Intervals behind a cell's last one
-_CHUNK = 1 << 14
+# Why it may be otherwise: what is within rounding of the inputs' products in twice double precision.
+REASONS = (
+    "",
+    "whether there is a capsize speed is within rounding",
+    "how many weave speeds there are is within rounding",
+    "the order of two critical speeds is within rounding",
+    "whether p1 … p4 are positive is within rounding",
+    "the interval is narrower than two neighbouring doubles",
+)
+_CAPSIZE_SPEED, _WEAVE_SPEEDS, _ORDER, _SIGNS, _WIDTH = range(1, 6)
+_EMPTY = (np.nan, np.nan, NONE, NONE, np.nan, np.nan, 0)  # what stands in Intervals behind a cell's last one
 
 
 class Intervals(NamedTuple):
     """Stable speeds V1 < V < V2 [m/s] of each cell, ascending; shape ``(*shape, interval)``.
 
     V1 and V2 are NaN behind a cell's last interval; V2 is inf where it is unbounded above.
-    ``lower`` and ``upper`` are indices into KINDS: what happens at either end.
+    ``lower`` and ``upper`` are indices into KINDS: what happens at either end. The true ends are within
+    ``V1_error`` and ``V2_error`` [m/s]: those of exactly these inputs if the table came from
+    ``exact_table``, of exactly this table if it did not. Where the number of intervals or the kind of an
+    end is within rounding, the cell's first ``marginal`` is an index into REASONS, else 0.
 
     >>> import bikestab as bs
     >>> found = bs.stable_intervals(bs.Bicycle.preset("meijaard2007"))
@@ -38,6 +50,9 @@ class Intervals(NamedTuple):
     V2: Floats
     lower: NDArray[np.uint8]
     upper: NDArray[np.uint8]
+    V1_error: Floats
+    V2_error: Floats
+    marginal: NDArray[np.uint8]
 
     @property
     def number(self) -> NDArray[np.intp]:
@@ -45,28 +60,7 @@ class Intervals(NamedTuple):
         return np.count_nonzero(self.upper, axis=-1)
 
 
-class Critical(NamedTuple):
-    """Where each condition is zero, and its sign before: by the conditions' names.
-
-    ``speeds`` [m/s], shape (root, *shape), are the positive speeds at which it changes its sign,
-    ascending, NaN behind the last; ``sign`` (*shape) is that just above V = 0: −1, 1, or 0 if it is
-    zero at every speed.
-    """
-
-    speeds: dict[str, Floats]
-    sign: dict[str, Floats]
-
-
-def critical(table: Floats, names: tuple[str, ...] = CONDITIONS) -> Critical:
-    """The critical speeds and the signs before them of a table (5, 4, *shape)."""
-    polynomials = condition_polynomials(table)
-    return Critical(
-        {name: positive_roots(polynomials[name]) for name in names},
-        {name: sign_near_zero(polynomials[name]) for name in names},
-    )
-
-
-def critical_speeds(table: Floats) -> dict[str, Floats]:
+def critical_speeds(table: Floats | ExactTable) -> dict[str, Floats]:
     """The positive speeds at which each condition changes sign; shape (root, *shape), NaN where none.
 
     Not every root of hurwitz3 or p0 is an edge of stability, and those of the others never are.
@@ -74,54 +68,63 @@ def critical_speeds(table: Floats) -> dict[str, Floats]:
     return critical(table).speeds
 
 
-def intervals_of(table: Floats) -> Intervals:
-    """Every interval of stable speeds of a table (5, 4, *shape), exact to rounding.
+def intervals_of(table: Floats | ExactTable) -> Intervals:
+    """Every interval of stable speeds of a table (5, 4, *shape), with bounds on its ends.
 
     An end is ``weave`` (hurwitz3 = 0), ``capsize`` (p0 = 0), ``rest`` (V = 0) or ``unbounded``.
     The last axis is as long as the largest number of intervals in any cell, and at least 1.
     """
-    shape = table.shape[2:]
-    cells = table.reshape(5, 4, -1)
-    parts = []
-    for start in range(0, max(cells.shape[-1], 1), _CHUNK):
-        part = cells[..., start : start + _CHUNK]
-        parts.append(intervals_between(part, critical(part, ("p0", "hurwitz3"))))
-    fields = [
-        joined([list(field)], empty) for field, empty in zip(zip(*parts, strict=True), _EMPTY, strict=True)
-    ]
-    return Intervals(*(field.reshape(*shape, field.shape[-1]) for field in fields))
+    exact = as_exact(table)
+    shape = exact.shape[2:]
+    cells = exact.reshape(5, 4, -1)
+    found = intervals_between(cells, critical(cells, ("p0", "hurwitz3")))
+    return Intervals._make(field.reshape(*shape, field.shape[-1]) for field in found)
 
 
-def intervals_between(table: Floats, critical: Critical) -> Intervals:
-    """The stable intervals of a table (5, 4, cell) whose critical speeds are known."""
-    capsize, weave = critical.speeds["p0"], critical.speeds["hurwitz3"]
-    n = table.shape[-1]
+class _Ends(NamedTuple):
+    """Critical speeds V + rest (root, cell) within ``radius``, and what they are."""
 
-    V = np.concatenate([weave, capsize])
-    kind = np.repeat(np.array([WEAVE, CAPSIZE], np.uint8), [len(weave), len(capsize)])
-    V, kind_at = _ascending(V, np.where(np.isfinite(V), kind[:, np.newaxis], NONE).astype(np.uint8))
-    exists = kind_at != NONE
+    V: Floats
+    rest: Floats
+    radius: Floats
+    kind: NDArray[np.uint8]
+
+
+def intervals_between(table: Floats | ExactTable, critical: Critical) -> Intervals:
+    """``intervals_of`` a table (5, 4, cell) whose critical speeds are known."""
+    exact = as_exact(table)
+    n = exact.shape[-1]
+    ends = _ends(critical)
+    weave, capsize = critical.zeros["hurwitz3"], critical.zeros["p0"]
+    marginal = np.where(~capsize.sure, _CAPSIZE_SPEED, np.where(~weave.sure, _WEAVE_SPEEDS, 0))
+    V, rest, radius, kind = ends
+    exists = kind != NONE
 
     # stretch i lies between ends i and i + 1 of: rest, the critical speeds, infinity
-    rest, infinity = np.zeros((1, n)), np.full((1, n), np.inf)
-    lower_V = np.concatenate([rest, V])
-    upper_V = np.concatenate([V, infinity])
-    lower = np.concatenate([np.full((1, n), REST, np.uint8), kind_at])
-    upper = np.concatenate([np.where(exists, kind_at, UNBOUNDED), np.full((1, n), UNBOUNDED)])
-    upper = upper.astype(np.uint8)
+    zeros, infinity = np.zeros((1, n)), np.full((1, n), np.inf)
+    error = np.where(exists, np.abs(rest) + radius, 0.0) * (1 + 2.0**-50)
+    lower = np.concatenate([np.full((1, n), REST, np.uint8), kind])
+    upper = np.concatenate([np.where(exists, kind, UNBOUNDED), np.full((1, n), UNBOUNDED)]).astype(np.uint8)
+    lower_V, upper_V = np.concatenate([zeros, V]), np.concatenate([V, infinity])
 
     # p0 and hurwitz3 by counting their sign changes, which is right in however narrow a stretch;
     # the others keep their sign throughout a stable stretch, so any speed inside it will do
-    crossed = [np.concatenate([rest, np.cumsum(kind_at == k, axis=0)]) % 2 for k in (CAPSIZE, WEAVE)]
-    good = np.ones_like(lower_V, dtype=bool)
-    for name, odd in zip(("p0", "hurwitz3"), crossed, strict=True):
+    good = lower_V < np.inf
+    for name, which in (("p0", CAPSIZE), ("hurwitz3", WEAVE)):
+        odd = np.concatenate([zeros, np.cumsum(kind == which, axis=0)]) % 2
         good &= critical.sign[name] * (1 - 2 * odd) > 0
-    good &= lower_V < upper_V
     column, stretch = np.nonzero(good.T)
     low, high = lower_V[stretch, column], upper_V[stretch, column]
     inside = np.where(np.isfinite(high), low + 0.5 * (high - low), 2 * low + 1)
-    values = conditions(table[..., column], inside)
-    good[stretch, column] = np.all([values.p1 > 0, values.p2 > 0, values.p3 > 0, values.p4 > 0], axis=0)
+    stable, clear = _others_positive(exact.cells(column), inside)
+    good[stretch, column] = stable
+    marginal[column[~clear]] = _SIGNS
+    if len(V) > 1:
+        with np.errstate(invalid="ignore"):
+            gap = (V[1:] - V[:-1]) + (rest[1:] - rest[:-1])
+        close = exists[1:] & (gap <= radius[1:] + radius[:-1]) & (kind[1:] != kind[:-1])
+        marginal[close.any(axis=0)] = _ORDER
+    marginal[(good & (lower_V == upper_V)).any(axis=0)] = _WIDTH
 
     column, stretch = np.nonzero(good.T)
     count = np.bincount(column, minlength=n)
@@ -133,35 +136,51 @@ def intervals_between(table: Floats, critical: Critical) -> Intervals:
         out[column, nth] = values[stretch, column]
         return out
 
-    return Intervals(pick(lower_V, np.nan), pick(upper_V, np.nan), pick(lower, NONE), pick(upper, NONE))
+    values = (
+        lower_V, upper_V, lower, upper, np.concatenate([zeros, error]), np.concatenate([error, zeros])
+    )  # fmt: skip
+    first = np.zeros((n, most), np.uint8)
+    first[:, 0] = marginal
+    return Intervals._make([*map(pick, values, _EMPTY), first])
 
 
-def _ascending(V: Floats, kind: NDArray[np.uint8]) -> tuple[Floats, NDArray[np.uint8]]:
-    """Both in the order of the few V along the first axis, equal ones as they were; inf for NaN, last.
-
-    numpy sorts each column by itself, which takes ten times as long.
-    """
-    V = np.where(np.isnan(V), np.inf, V)
+def _ends(critical: Critical) -> _Ends:
+    """The zeros of p0 and hurwitz3 in one ascending order; inf behind a cell's last."""
+    weave, capsize = critical.zeros["hurwitz3"], critical.zeros["p0"]
+    V, rest, radius = (np.concatenate([a, b]) for a, b in zip(weave[:3], capsize[:3], strict=True))
+    kind = np.repeat(np.array([WEAVE, CAPSIZE], np.uint8), [len(weave.V), len(capsize.V)])
+    exists = np.isfinite(V)
+    kind = np.where(exists, kind[:, np.newaxis], NONE).astype(np.uint8)
+    V, rest, radius = (np.where(exists, a, b) for a, b in ((V, np.inf), (rest, 0.0), (radius, 0.0)))
+    rows = V, rest, radius, kind
+    # few rows: numpy sorts each column by itself, which takes ten times as long
     for last in range(len(V) - 1, 0, -1):
         for i in range(last):
-            wrong = V[i] > V[i + 1]
-            for values in (V, kind):
+            wrong = (V[i] > V[i + 1]) | ((V[i] == V[i + 1]) & (rest[i] > rest[i + 1]))
+            for values in rows:
                 values[i], values[i + 1] = (
                     np.where(wrong, values[i + 1], values[i]),
                     np.where(wrong, values[i], values[i + 1]),
                 )
-    return V, kind
+    return _Ends(*rows)
 
 
-def joined(blocks: list[list[NDArray]], empty: float) -> NDArray:
-    """Blocks (row, column, …, item) of a plane as one array, short ones filled up with ``empty``."""
-    most = max((block.shape[-1] for row in blocks for block in row), default=1)
-    return np.concatenate(
-        [np.concatenate([widened(block, most, empty) for block in row], axis=-2) for row in blocks]
-    )
+def _others_positive(table: ExactTable, V: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Whether p1 … p4 are positive at speeds with p0, hurwitz3 > 0, and whether that is certain.
 
-
-def widened(values: NDArray, most: int, empty: float) -> NDArray:
-    """The array with its last axis filled up to the length ``most``."""
-    missing = most - values.shape[-1]
-    return np.concatenate([values, np.full((*values.shape[:-1], missing), empty, values.dtype)], axis=-1)
+    There p1 (p2 p3 − p4 p1) > p0 p3² ≥ 0, so that with p3, p4 > 0 p1 and p2 have one sign: where one of
+    them is near zero the other one tells.
+    """
+    p0, p1, p2, p3, p4 = coefficients_at(table.value, V)
+    sizes = coefficients_at(np.abs(table.value), V)
+    uncertain = coefficients_at(table.error, V)
+    clear = [
+        np.abs(p) > 2.0**-50 * size + error
+        for p, size, error in zip((p0, p1, p2, p3, p4), sizes, uncertain, strict=True)
+    ]
+    zero = [size + error == 0 for size, error in zip(sizes, uncertain, strict=True)]
+    first = np.where(clear[1], p1, np.where(clear[2], p2, p1))
+    stable = (first > 0) & (p3 > 0) & (p4 > 0)
+    known_bad = zero[3] | zero[4] | zero[1] | (clear[3] & (p3 < 0)) | (clear[4] & (p4 < 0))
+    known_bad |= (clear[1] & (p1 < 0)) | (clear[2] & (p2 < 0))
+    return stable, known_bad | ((clear[1] | clear[2]) & clear[3] & clear[4])

@@ -114,7 +114,8 @@ def eigenvalues(
     >>> bs.eigenvalues(bike, np.linspace(0, 10, 101), lam=[[0.3], [0.4]]).shape
     (4, 2, 101)
     """
-    return eigenvalues_of(*table_and_speeds(bicycle, V, lam, sigma, model, delta))
+    table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
+    return eigenvalues_of(table.value, speeds)
 
 
 def growth_rate(
@@ -150,7 +151,8 @@ def growth_rate(
     >>> bs.growth_rate(bike, [3, 5, 7]).round(6)
     array([ 1.706756, -0.322866,  0.102682])
     """
-    return growth_rate_of(*table_and_speeds(bicycle, V, lam, sigma, model, delta))
+    table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
+    return growth_rate_of(table.value, speeds)
 
 
 def stable(
@@ -190,7 +192,7 @@ def stable(
     """
     table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
     found = intervals_of(table)
-    inside = (speeds == 0) & routh.stable(table, 0.0)
+    inside = (speeds == 0) & routh.stable(table.value, 0.0)
     for V1, V2 in zip(np.moveaxis(found.V1, -1, 0), np.moveaxis(found.V2, -1, 0), strict=True):
         inside |= (speeds > V1) & (speeds < V2)
     return inside
@@ -237,7 +239,8 @@ def modes(
     """
     from bikestab.branches import follow  # exact arithmetic, which nothing else here needs
 
-    table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
+    exact, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
+    table = exact.value
     if table.ndim > 2 or speeds.ndim > 1:
         key = "V" if table.ndim == 2 else "lam, sigma"
         raise InputError("modes are followed for one design along one row of speeds", key=(key,))

@@ -26,23 +26,39 @@ s, V, c, delta = sp.Symbol("s"), derived.V, derived.c, derived.delta
 # -- model.py ---------------------------------------------------------------------------------------------
 
 
-class Angle(sp.Symbol):
-    """A symbol whose sine and cosine numpy can ask for."""
-
-    def sin(self):
-        return sp.sin(derived.lam)
-
-    def cos(self):
-        return sp.cos(derived.lam)
+@pytest.fixture
+def symbols_for_numbers(monkeypatch):
+    monkeypatch.setattr(model_module, "Twofold", lambda value: sp.nsimplify(np.asarray(value).item()))
+    monkeypatch.setattr(model_module, "sine_cosine", lambda lam: (sp.sin(lam), sp.cos(lam)))
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_model_py_term_by_term(monkeypatch, model):
+@pytest.mark.usefixtures("symbols_for_numbers")
+def test_table_of_model_py(monkeypatch, model):
+    """Its code, run with symbols for its letters: simplified as it is, the determinant of (1.5)."""
+    bicycle = SimpleNamespace(**PARAMETERS, delta=delta)
+    own = model_module._letters(bicycle, derived.lam, derived.sigma, model)
+    n = SimpleNamespace(**{name: sp.Symbol(name) for name in vars(own)})
+    pitch = own.W - own.C2 * own.sin - own.S  # what the refinement adds to S
+    n.missing = None if model == "refined" else n.h * sp.Symbol("pitch")
+    more = 0 if model == "refined" else sp.Symbol("pitch")
+    n.U, n.W = n.S - n.h * n.sin, n.S + more + n.C2 * n.sin
+    assert derived.same(own.U, own.S - own.h * own.sin)
+    assert derived.same(pitch, 0 if model == "refined" else own.missing / own.h)
+    monkeypatch.setattr(model_module, "_letters", lambda *_: n)
+    names = {AB[name]: value for name, value in coefficients(bicycle, 0, 0, model=model)._asdict().items()}
+    found = model_module._entries(n)
+    for k, j in np.ndindex(5, 4):
+        entry = determinant().coeff(s, k).coeff(V, j).subs({c: n.c, delta: n.delta}).subs(names)
+        assert sp.expand(found.get((k, j), sp.Integer(0)) - entry) == 0, (k, j)
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.usefixtures("symbols_for_numbers")
+def test_model_py_term_by_term(model):
     """The code of ``coefficients`` itself, run with symbols for numbers."""
-    monkeypatch.setattr(
-        model_module, "Tracked", lambda value, size=None: sp.nsimplify(np.asarray(value).item())
-    )
-    found = coefficients(SimpleNamespace(**PARAMETERS), Angle("lam"), derived.sigma, model=model)
+    bicycle = SimpleNamespace(**PARAMETERS, delta=delta)
+    found = coefficients(bicycle, derived.lam, derived.sigma, model=model)
     expected = derived.derive(model).coefficients
     assert expected["damping"] == c * delta
     for name in AB:

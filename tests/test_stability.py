@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import bikestab as bs
-from bikestab.model import canonical_matrices, characteristic_table
+from bikestab.model import canonical_matrices, exact_table
 from bikestab.speeds import intervals_of
 from tests.strategies import lams, machines, sigmas
 
@@ -64,7 +64,7 @@ def test_shapes_broadcast_together():
         i, j, k = index
         one = bs.stable(DIKAREV, V[k], lam[i, 0, 0], sigma[j, 0])
         assert one == stable[index]
-    for a, b in zip(found, intervals_of(characteristic_table(DIKAREV, lam, sigma)), strict=True):
+    for a, b in zip(found, intervals_of(exact_table(DIKAREV, lam, sigma)), strict=True):
         np.testing.assert_array_equal(a, b)
 
 

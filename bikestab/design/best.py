@@ -192,7 +192,7 @@ def _design(wanted: Wanted, x: Floats, pick: Pick = "widest", at: str = "") -> D
     table = wanted.table(x[:, np.newaxis])
     found = counted(wanted, table)
     V, rate = judged(wanted, table, found, rounds=7)
-    V1, V2, lower, upper = (values[0] for values in found.intervals)
+    V1, V2, lower, upper = (values[0] for values in found.intervals[:4])
     wide = np.where(found.counts, np.minimum(V2, wanted.V_max) - V1, -1.0)[0]
     merit = wide
     if pick == "lowest":

@@ -16,9 +16,9 @@ from bikestab.errors import ScanError
 from bikestab.model import Floats, characteristic_table
 from bikestab.routh import CONDITIONS, condition, conditions
 from bikestab.scanning.agreement import AGREEMENT, ZERO, Agreement, by_rounding, size_of_terms
+from bikestab.scanning.linking import widened
 from bikestab.scanning.sheets import Roots
 from bikestab.scanning.tile import Tile
-from bikestab.speeds import widened
 
 COLUMNS = 2_500  # looked at, at most; they have some four sign changes each
 POINTS = 1 << 22  # of the grid that are evaluated for that, at most

@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.critical import Critical
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS, condition, conditions, violated
 from bikestab.scanning.agreement import AGREEMENT, ZERO, Agreement, by_rounding, size_of_terms
-from bikestab.speeds import Critical
 
 SAMPLE = 8  # speeds of the grid at which the signs are compared
 _FAR = 1e-3  # m/s; a difference above is called infinite

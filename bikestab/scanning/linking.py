@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
-from bikestab.speeds import widened
 
 Indices = NDArray[np.intp]
 
@@ -229,3 +228,9 @@ def _graph(links: Indices, number: int) -> Any:
     from scipy.sparse import coo_array
 
     return coo_array((np.ones(links.shape[1], np.int8), tuple(links)), shape=(number, number))
+
+
+def widened(values: NDArray, most: int, empty: float) -> NDArray:
+    """The array with its last axis filled up to the length ``most``."""
+    missing = most - values.shape[-1]
+    return np.concatenate([values, np.full((*values.shape[:-1], missing), empty, values.dtype)], axis=-1)

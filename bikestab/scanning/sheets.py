@@ -16,10 +16,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.critical import critical
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.linking import Direction
-from bikestab.speeds import CAPSIZE, WEAVE, Intervals, critical
+from bikestab.speeds import CAPSIZE, WEAVE, Intervals
 
 EDGES = {"p0": CAPSIZE, "hurwitz3": WEAVE}  # the kind of end where a condition can be an edge of stability
 
@@ -47,7 +48,7 @@ class Sheets(NamedTuple):
 
 def critical_roots(table: Floats) -> dict[str, Roots]:
     """The roots of each condition of a table (5, 4, λ, σ)."""
-    speeds, sign = critical(table)
+    speeds, sign, _ = critical(table)
     return {
         name: Roots(np.moveaxis(speeds[name], 0, -1), sign[name][..., np.newaxis] < 0) for name in CONDITIONS
     }

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.critical import Critical
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.speeds import Critical
 
 ALL = np.uint8((1 << len(CONDITIONS)) - 1)
 NEAR = 1e-9  # relative; that close to a root rounding might decide, and the conditions are evaluated

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
+from bikestab.critical import Critical, critical
 from bikestab.errors import ScanError
 from bikestab.fields import FIELDS, Points
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.agreement import AGREEMENT, Agreement
 from bikestab.scanning.chunks import bundled, packed
@@ -23,7 +24,7 @@ from bikestab.scanning.crosscheck import check
 from bikestab.scanning.ensemble import ensemble_statistics
 from bikestab.scanning.sheets import Roots, most_roots
 from bikestab.scanning.signs import violated_between
-from bikestab.speeds import Critical, Intervals, critical, intervals_between
+from bikestab.speeds import Intervals, intervals_between
 
 if TYPE_CHECKING:
     from bikestab.config.variation import Ensemble
@@ -68,12 +69,13 @@ class Columns(NamedTuple):
 
     def to_bytes(self) -> bytes:
         """The columns as they are kept until the volume is written."""
-        V1, V2, lower, upper = self.intervals
+        V1, V2, lower, upper, V1_error, V2_error, marginal = self.intervals
         V = [roots.V for roots in self.roots.values()]
         rising = [roots.rising for roots in self.roots.values()]
         out = io.BytesIO()
         for array in (
-            np.stack([V1, V2]), np.stack([lower, upper]), np.cumsum([each.shape[-1] for each in V]),
+            np.stack([V1, V2, V1_error, V2_error]), np.stack([lower, upper, marginal]),
+            np.cumsum([each.shape[-1] for each in V]),
             np.concatenate(V, axis=-1), np.concatenate(rising, axis=-1), self.spread,
         ):  # fmt: skip
             np.save(out, array, allow_pickle=False)
@@ -86,7 +88,7 @@ class Columns(NamedTuple):
         ends, kinds, stops, V, rising, spread = (np.load(file, allow_pickle=False) for _ in range(6))
         each = zip(np.split(V, stops[:-1], axis=-1), np.split(rising, len(CONDITIONS), axis=-1), strict=True)
         roots = {name: Roots(*arrays) for name, arrays in zip(CONDITIONS, each, strict=True)}
-        return cls(Intervals(*ends, *kinds), roots, spread)
+        return cls(Intervals._make([*ends[:2], *kinds[:2], *ends[2:], kinds[2]]), roots, spread)
 
 
 class Finished(NamedTuple):
@@ -103,9 +105,9 @@ def compute(tile: Tile) -> Finished:
     Raises ScanError where the exact critical speeds and the conditions themselves do not agree.
     """
     keep_heap()
-    whole = characteristic_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model)
-    table = whole.reshape(5, 4, -1)
-    exact = critical(table)
+    whole = exact_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model)
+    whole = whole.reshape(5, 4, -1)
+    table, exact = whole.value, critical(whole)
     mask = violated_between(table, exact, tile.V)
     agreement = check(table, exact, mask, tile.V, tile.above)
     if agreement.largest > AGREEMENT:
@@ -117,7 +119,7 @@ def compute(tile: Tile) -> Finished:
         chunks += packed(field_values(name, table, tile, mask, probability), tile.chunk)
     columns = b""
     if tile.lowest:
-        of_columns = _columns(table, exact, spread)
+        of_columns = _columns(whole, exact, spread)
         columns = of_columns.to_bytes()
         notes["intervals"] = of_columns.intervals.V1.shape[-1]
         notes["most_roots"] = {name: most_roots(roots) for name, roots in of_columns.roots.items()}
@@ -165,16 +167,14 @@ def _ensemble(tile: Tile) -> tuple[NDArray[np.float32], Floats]:
     return statistics.probability, spread.reshape(n, m, -1)
 
 
-def _columns(table: Floats, exact: Critical, spread: Floats) -> Columns:
+def _columns(table: ExactTable, exact: Critical, spread: Floats) -> Columns:
     shape = spread.shape[:2]
     intervals = intervals_between(table, exact)
     roots = {}
     for name in CONDITIONS:
         V = exact.speeds[name].T.reshape(*shape, len(exact.speeds[name]))
         roots[name] = Roots(V, (exact.sign[name] < 0).reshape(*shape, 1))
-    V1, V2, lower, upper = intervals
-    size = (*shape, V1.shape[-1])
-    ends = Intervals(V1.reshape(size), V2.reshape(size), lower.reshape(size), upper.reshape(size))
+    ends = Intervals._make(field.reshape(*shape, field.shape[-1]) for field in intervals)
     return Columns(ends, roots, spread)
 
 

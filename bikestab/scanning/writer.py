@@ -22,10 +22,11 @@ from bikestab.routh import CONDITIONS
 from bikestab.scanning.agreement import Agreement
 from bikestab.scanning.chunks import packed, places
 from bikestab.scanning.labels import add_vtk_view, describe, file_attributes, flags, masks, words
+from bikestab.scanning.linking import widened
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.sheets import Sheets
 from bikestab.scanning.sink import Sink
-from bikestab.speeds import KINDS, Intervals, widened
+from bikestab.speeds import KINDS, Intervals
 from bikestab.volume import uniform
 
 
@@ -141,7 +142,8 @@ class VolumeWriter:
     ) -> None:
         """Put a tile's intervals, boundary surfaces and, for an ensemble, their spread into the file."""
         for name, values in intervals._asdict().items():
-            self._write_column(name, place, values)
+            if name in self._data:
+                self._write_column(name, place, values)
         for name, (V, edge) in surfaces.items():
             self._write_column(f"boundary/{name}", place, V)
             self._write_column(f"boundary/{name}_edge", place, edge)

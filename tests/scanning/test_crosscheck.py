@@ -8,12 +8,13 @@ import pytest
 from hypothesis import given, settings
 
 from bikestab.bicycle import Bicycle
+from bikestab.critical import critical
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition, condition_polynomials, conditions
 from bikestab.scanning.agreement import AGREEMENT, Agreement
 from bikestab.scanning.crosscheck import check
 from bikestab.scanning.signs import violated_between
-from bikestab.speeds import critical, critical_speeds, intervals_of
+from bikestab.speeds import critical_speeds, intervals_of
 from tests.onecell import table_of
 from tests.strategies import machines
 

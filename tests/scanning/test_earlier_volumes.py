@@ -1,6 +1,5 @@
 """The same configs give the same volumes as an earlier build did; tests/references/volumes has both."""
 
-import json
 from contextlib import chdir
 from pathlib import Path
 
@@ -9,14 +8,12 @@ import numpy as np
 import pytest
 
 from bikestab.config.file import load_config
-from bikestab.scanning.cluster import versions
 from bikestab.scanning.run import run_scan
 
 FOLDER = Path(__file__).parents[1] / "references" / "volumes"
-BUILD = json.loads((FOLDER / "build.json").read_text())
 NAMES = sorted(path.stem for path in FOLDER.glob("*.h5"))
-SAME_PROCESSOR = versions()["processor"] == BUILD["processor"]
-OTHER_PROCESSOR = 1e-9  # relative: numpy's vector instructions round differently, which grows at folds
+# relative: the earlier build rounded the table's terms, where this one has the doubles nearest to its entries
+ROUNDING = 1e-9  # near a fold, where this grows; elsewhere some 1e-14
 ADDED: set[str] = set()  # datasets that the earlier build did not write
 DIFFERENT = {"config_sha256", "bikestab_version", "source"}  # what an attribute of the file may differ in
 HANDLES = {"REFERENCE_LIST", "DIMENSION_LIST"}  # of HDF5 itself; dims are compared by name
@@ -76,12 +73,8 @@ def test_integers_and_flags_are_equal(pair):
 
 
 def test_floats_are_equal(pair):
-    """To the bit on a processor of the same kind."""
+    """To the rounding of the earlier build."""
     old, new = map(items, pair)
     for name, item in old.items():
         if isinstance(item, h5py.Dataset) and item.dtype.kind == "f":
-            here, there = new[name][()], item[()]
-            if SAME_PROCESSOR:
-                assert here.tobytes() == there.tobytes(), name
-            else:
-                np.testing.assert_allclose(here, there, rtol=OTHER_PROCESSOR, err_msg=name)
+            np.testing.assert_allclose(new[name][()], item[()], rtol=ROUNDING, atol=1e-11, err_msg=name)

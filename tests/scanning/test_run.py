@@ -10,9 +10,10 @@ import h5py
 import numpy as np
 import pytest
 
+from bikestab.critical import critical
 from bikestab.errors import InputError, ScanError
 from bikestab.fields import AXES
-from bikestab.model import characteristic_table
+from bikestab.model import exact_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scanning.agreement import AGREEMENT
 from bikestab.scanning.bracketing import zeros
@@ -20,7 +21,7 @@ from bikestab.scanning.output import MOST_VALUES, check_size
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.run import run_scan
 from bikestab.spectrum import growth_rate_of
-from bikestab.speeds import critical, critical_speeds, intervals_of
+from bikestab.speeds import critical_speeds, intervals_of
 from tests.scans import config_of, files, load
 
 pytestmark = pytest.mark.usefixtures("in_an_empty_folder", "small_tiles")
@@ -36,15 +37,16 @@ def test_tiles_leave_no_trace(shape):
     calls = []
     result = run_scan(config, progress=lambda *call: calls.append(call))
     lam, sigma, V = (config.grid.values(name) for name in AXES)
-    table = characteristic_table(config.machine, lam[:, np.newaxis], sigma)
+    exact = exact_table(config.machine, lam[:, np.newaxis], sigma)
+    table = exact.value
     with h5py.File(result.path) as file:
         mask = violated(conditions(table[..., np.newaxis], V))
         np.testing.assert_array_equal(file["violated"][()], mask)
         np.testing.assert_array_equal(file["stable"][()], mask == 0)
         growth = growth_rate_of(table[..., np.newaxis], V)
         np.testing.assert_array_equal(file["growth_rate"][()], growth.astype("f4"))
-        for name, values in intervals_of(table)._asdict().items():
-            np.testing.assert_array_equal(file[name][()], values)
+        for name in ("V1", "V2", "lower", "upper"):
+            np.testing.assert_array_equal(file[name][()], getattr(intervals_of(exact), name))
         assert file.attrs["complete"] == 1
         assert file.attrs["stable_points"] == result.stable_points
     points = int(np.prod(shape))
@@ -81,7 +83,7 @@ def test_boundary_holds_every_critical_speed():
     """Those above the last speed of the grid, too, and those that a step of the grid has in pairs."""
     config = config_of((20, 20, 4))
     lam, sigma, V = (config.grid.values(name) for name in AXES)
-    table = characteristic_table(config.machine, lam[:, np.newaxis], sigma)
+    table = exact_table(config.machine, lam[:, np.newaxis], sigma)
     inside = intervals_of(table)
     ends = np.isin(inside.lower, [1, 2]).sum() + np.isin(inside.upper, [1, 2]).sum()
     with h5py.File(run_scan(config).path) as file:

@@ -29,7 +29,7 @@ def sheets_of(table):
 
 
 def no_intervals(shape):
-    return Intervals(*(np.full((*shape, 1), fill) for fill in (np.nan, np.nan, 0, 0)))
+    return Intervals(*(np.full((*shape, 1), fill) for fill in (np.nan, np.nan, 0, 0, np.nan, np.nan, 0)))
 
 
 def place(V):
@@ -338,7 +338,8 @@ def test_edges_are_found_however_the_ends_are_rounded():
 def test_a_narrow_interval_has_two_edges():
     """Two weave speeds as close as they come are still one rising and one falling."""
     V = np.array([[[2.0, np.nextafter(2.0, 3.0)]]])
-    inside = Intervals(V[..., :1], V[..., 1:], *(np.full((1, 1, 1), WEAVE, np.uint8),) * 2)
+    kinds, zero = (np.full((1, 1, 1), WEAVE, np.uint8),) * 2, np.zeros((1, 1, 1))
+    inside = Intervals(V[..., :1], V[..., 1:], *kinds, zero, zero, zero.astype(np.uint8))
     found = sheets("hurwitz3", Roots(V, np.ones((1, 1, 1), bool)), inside)
     np.testing.assert_array_equal(found.edge, [[[1, 1]]])
     np.testing.assert_array_equal(sheets("p1", Roots(V, np.ones((1, 1, 1), bool)), inside).edge, [[[0, 0]]])

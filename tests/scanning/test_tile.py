@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 
 from bikestab.bicycle import Bicycle
+from bikestab.critical import critical
 from bikestab.errors import ScanError
-from bikestab.model import characteristic_table
+from bikestab.model import exact_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scanning.chunks import bundled, places, unbundled
 from bikestab.scanning.sheets import critical_roots, most_roots
 from bikestab.scanning.tile import Columns, Tile, compute
 from bikestab.spectrum import growth_rate_of
-from bikestab.speeds import critical, intervals_of
+from bikestab.speeds import intervals_of
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
 FIELDS = ("stable", "violated", "growth_rate", *CONDITIONS)
@@ -29,7 +30,7 @@ def tile_of(bicycle=DIKAREV, shape=(9, 7, 30), fields=FIELDS, lowest=True, model
 
 
 def table_of(tile):
-    return characteristic_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model)
+    return exact_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model).value
 
 
 def fields_of(tile, finished):
@@ -81,7 +82,8 @@ def test_only_the_fields_that_are_wanted_and_in_their_order():
 def test_columns_are_the_intervals_and_roots(bicycle):
     tile = tile_of(bicycle)
     finished = compute(tile)
-    found, table = Columns.from_bytes(finished.columns), table_of(tile)
+    found = Columns.from_bytes(finished.columns)
+    table = exact_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model)
     for values, expected in zip(found.intervals, intervals_of(table), strict=True):
         np.testing.assert_array_equal(values, expected)
         assert values.dtype == expected.dtype
