@@ -43,8 +43,8 @@ def interval_records(found: Intervals, *cell: int) -> list[Interval]:
     ]
 
 
-def design_record(lam: float, sigma: float, wheelbase: float) -> Design:
-    """A design by the words of tables and JSON; of floats, or of arrays."""
+def design_record(lam: Any, sigma: Any, wheelbase: Any) -> Design:
+    """A design by the words of tables and JSON, of floats; or several, of arrays."""
     degrees = lam * (180 / math.pi)
     return {"lam": lam, "sigma": sigma, "head_angle_deg": 90 - degrees, "trail": sigma * wheelbase}
 

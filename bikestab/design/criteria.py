@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from bikestab.errors import InputError
 from bikestab.family import Family
+from bikestab.limits import check_speed
 from bikestab.model import Floats
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import Intervals, intervals_of
@@ -193,6 +194,8 @@ def _check(wanted: Wanted) -> None:
             raise InputError(problem, key=(name,), hint=f"did you mean {ends[1]:g}:{ends[0]:g}?")
         if name in ("judged", "stable") and ends[0] < 0:
             raise InputError(f"{ends[0]:g} m/s is negative", key=(name,), hint="allowed: 0 and above")
+        if name in ("judged", "stable"):
+            check_speed(ends[1], (name,))
     for x in wanted.x:
         for y in wanted.y:
             family.check(x, y)

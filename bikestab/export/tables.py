@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from bikestab.export.endings import file_format
 from bikestab.files import written
 from bikestab.model import Floats
+from bikestab.records import design_record
 from bikestab.speeds import KINDS
 
 if TYPE_CHECKING:
@@ -99,8 +100,8 @@ def front_blocks(front: Sequence[Design]) -> Iterator[Block]:
     }
 
 
-def _designs(lam: Floats, sigma: Floats, c: float) -> Block:
-    return {"lam": lam, "sigma": sigma, "head_angle_deg": 90 - np.degrees(lam), "trail": sigma * c}
+def _designs(lam: Floats, sigma: Floats, c: float | Floats) -> Block:
+    return cast("Block", design_record(lam, sigma, c))
 
 
 def save_table(columns: Columns, blocks: Iterable[Block], path: Path, about: Mapping[str, str]) -> None:

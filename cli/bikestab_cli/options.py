@@ -178,8 +178,9 @@ def check_files(*names: str | None) -> None:
     for name, place in zip(filter(None, names), places, strict=True):
         if places.count(place) > 1:
             raise click.UsageError(f"{name} is asked for twice", click.get_current_context())
-        if not place.parent.is_dir():
-            raise InputError("cannot be written (No such file or directory)", place=name)
+        if place.is_dir() or not place.parent.is_dir():
+            reason = "Is a directory" if place.is_dir() else "No such file or directory"
+            raise InputError(f"cannot be written ({reason})", place=name)
 
 
 @contextmanager

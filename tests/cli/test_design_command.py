@@ -145,12 +145,14 @@ def test_a_bicycle_without_own_design_and_one_outside_the_box(design, tmp_path):
             "--stable: 40 m/s is above 30 m/s, up to which intervals count",
         ),
         (("--V", "-1"), "--V: -1 m/s is negative; allowed: 0 and above"),
+        (("--V", "1e9"), "--V: 1e+09 m/s is out of range; allowed: 0 ... 1e+06 m/s"),
         (("--V-max", "0"), "--V-max: 0 m/s is no cap for the speed"),
         (("-o", "picture"), "--output: 'picture' has no ending .png, .pdf or .svg"),
         (("-o", "a.xyz"), "--output: 'a.xyz' has no ending .png, .pdf or .svg"),
         (("-o", "a.svg", "--csv", "a.svg"), "a.svg is asked for twice"),
         (("-o", "d.png", "--sigma", "0.1"), "--sigma: a picture needs a range, not 0.1 alone"),
         (("--csv", "no/front.csv", "--lam", "0.2"), "no/front.csv: cannot be written"),
+        (("--csv", "..//.", "--lam", "0.2"), "'..//.' is a folder, not a file to write"),
     ],
 )
 def test_mistakes(design, tmp_path, args, words):
