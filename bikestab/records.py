@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import TYPE_CHECKING, Any, NotRequired, TypedDict
 
-from bikestab.speeds import KINDS, Intervals
+from bikestab.speeds import KINDS, REASONS, Intervals
 
 if TYPE_CHECKING:
     from bikestab.branches import Modes
@@ -21,26 +21,46 @@ class Design(TypedDict):
 
 
 class Interval(TypedDict):
-    """An interval of stable speeds [m/s] and what happens at its ends; V2 is None where it is unbounded."""
+    """An interval of stable speeds [m/s] and what happens at its ends; V2 is None where it is unbounded.
+
+    The true ends lie within V1_error and V2_error, which are None where there is no bound, or no V2.
+    """
 
     V1: float
     V2: float | None
     lower: str
     upper: str
+    V1_error: float | None
+    V2_error: float | None
+
+
+class Verdict(TypedDict):
+    """Whether the number of intervals or the kind of an end is within rounding, and which, in words."""
+
+    marginal: bool
+    reason: NotRequired[str]
 
 
 def interval_records(found: Intervals, *cell: int) -> list[Interval]:
     """The intervals of one cell of ``found``, by its indices, ascending."""
-    V1, V2, lower, upper = (values[cell].tolist() for values in found[:4])
+    V1, V2, lower, upper, V1_error, V2_error, _ = (values[cell].tolist() for values in found)
     return [
         {
             "V1": V1[k],
-            "V2": None if math.isinf(V2[k]) else V2[k],
+            "V2": _finite(V2[k]),
             "lower": KINDS[lower[k]],
             "upper": KINDS[upper[k]],
+            "V1_error": _finite(V1_error[k]),
+            "V2_error": _finite(V2_error[k]) if math.isfinite(V2[k]) else None,
         }
         for k in range(int(found.number[cell]))
     ]
+
+
+def verdict_record(found: Intervals, *cell: int) -> Verdict:
+    """Whether the intervals of one cell of ``found`` are certain, by its indices."""
+    reason = REASONS[int(found.marginal[cell][0])]
+    return {"marginal": True, "reason": reason} if reason else {"marginal": False}
 
 
 def design_record(lam: Any, sigma: Any, wheelbase: Any) -> Design:
@@ -71,3 +91,7 @@ def modes_record(modes: Modes) -> dict[str, Any]:
             for branch, names, s in zip(BRANCHES, modes.names, modes.eigenvalues, strict=True)
         ],
     }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from bikestab.bicycle import Bicycle
-from bikestab.records import design_record, interval_records, modes_record
-from bikestab.speeds import KINDS
+from bikestab.records import design_record, interval_records, modes_record, verdict_record
+from bikestab.speeds import KINDS, REASONS
 from bikestab.stability import modes, stable_intervals
 
 PAPER = Bicycle.preset("dikarev1981")
@@ -27,9 +27,19 @@ def test_intervals_of_each_cell():
             assert (math.inf if record["V2"] is None else record["V2"]) == found.V2[cell][k]
             assert record["lower"] == KINDS[found.lower[cell][k]]
             assert record["upper"] == KINDS[found.upper[cell][k]]
-            assert (record["upper"] == "unbounded") == (record["V2"] is None)
+            assert (record["upper"] == "unbounded") == (record["V2"] is None) == (record["V2_error"] is None)
+            assert record["V1_error"] == found.V1_error[cell][k] < 1e-9
+        assert verdict_record(found, *cell) == {"marginal": False}
     assert numbers == {0, 1, 2}
     assert interval_records(stable_intervals(PAPER, 0.2, 0.08)) == interval_records(found, 1, 0)
+
+
+def test_what_is_within_rounding():
+    found = stable_intervals(PAPER, 0.2, 0.08)
+    open_ = found._replace(marginal=np.array([2], np.uint8), V1_error=np.array([np.inf]))
+    assert verdict_record(open_) == {"marginal": True, "reason": REASONS[2]}
+    (record,) = interval_records(open_)
+    assert (record["V1_error"], record["V2_error"]) == (None, found.V2_error[0])
 
 
 def test_design():

@@ -10,15 +10,15 @@ import numpy as np
 from bikestab.arguments import design_of
 from bikestab.bicycle import Bicycle
 from bikestab.model import Model
-from bikestab.records import Design, Interval, design_record, interval_records
+from bikestab.records import Design, Interval, Verdict, design_record, interval_records, verdict_record
 from bikestab.stability import stable_intervals
 
 if TYPE_CHECKING:
     from bikestab.region.nearest import Nearest
 
 
-class Answer(Design):
-    """A design and its intervals of stable speeds.
+class Answer(Design, Verdict):
+    """A design and its intervals of stable speeds, and whether these are certain.
 
     ``nearest`` says what would help where there is none, and is None otherwise or where nobody asked.
     """
@@ -53,5 +53,6 @@ def stable_speeds(
         design = design_record(float(tilts[i]), float(trails[j]), bicycle.c)
         intervals = interval_records(found, i, j)
         help_ = helps(design["lam"], design["sigma"]) if nearest and not intervals else None
-        answers.append({**design, "intervals": intervals, "nearest": help_})
+        verdict = verdict_record(found, i, j)
+        answers.append({**design, "intervals": intervals, **verdict, "nearest": help_})
     return answers

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.options import NAME, of_file
-from bikestab_cli.output import table
+from bikestab_cli.output import certain, table
 
 if TYPE_CHECKING:
     from bikestab.config.expectations import Outcome
+    from bikestab.records import Interval
 
 
 @click.command("check")
@@ -46,11 +47,17 @@ def command(configs: tuple[str, ...]) -> None:
 def _row(outcome: Outcome) -> list[str]:
     expected = outcome.expected
     wanted = "never" if expected.stable else f"{_text(expected.V1)} ... {_text(expected.V2)}"
-    found = ", ".join(f"{_text(i['V1'])} ... {_text(i['V2'], math.inf)}" for i in outcome.found) or "never"
+    found = ", ".join(map(_found, outcome.found)) or "never"
     verdict = "holds" if outcome.holds else "FAILED"
     return [f"{outcome.lam:.6g}", f"{outcome.sigma:.6g}", wanted, found, verdict]
 
 
-def _text(V: float | None, none: float | None = None) -> str:
-    V = none if V is None else V
+def _found(interval: Interval) -> str:
+    V2 = "unbounded"
+    if interval["V2"] is not None:
+        V2 = certain(interval["V2"], interval["V2_error"], 13, "g")
+    return f"{certain(interval['V1'], interval['V1_error'], 13, 'g')} ... {V2}"
+
+
+def _text(V: float | None) -> str:
     return "any" if V is None else "unbounded" if math.isinf(V) else f"{V:.13g}"

@@ -82,7 +82,7 @@ def command(
 
     from bikestab.arguments import design_of
     from bikestab.export.tables import MODES, modes_blocks, save_csv
-    from bikestab.records import design_record, interval_records, modes_record
+    from bikestab.records import design_record, interval_records, modes_record, verdict_record
     from bikestab.stability import modes, stable_intervals
 
     if output and min(speeds) == max(speeds):
@@ -97,7 +97,8 @@ def command(
         tilt, trail = (float(value) for value in design_of(bicycle, lam, sigma))
         found = modes(bicycle, speeds, tilt, trail, model=model)
     design = design_record(tilt, trail, bicycle.c)
-    intervals = interval_records(stable_intervals(bicycle, tilt, trail, model=model))
+    stable = stable_intervals(bicycle, tilt, trail, model=model)
+    intervals, verdict = interval_records(stable), verdict_record(stable)
     files = {}
     if csv_file:
         save_csv(MODES, modes_blocks(found), csv_file)
@@ -110,6 +111,6 @@ def command(
         files["picture"] = output
     if as_json:
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta}
-        print_json({**head, **design, "intervals": intervals, **modes_record(found), **files})
+        print_json({**head, **design, "intervals": intervals, **verdict, **modes_record(found), **files})
     else:
-        click.echo("\n".join(files.values()) or told(bicycle, model, design, intervals, found))
+        click.echo("\n".join(files.values()) or told(bicycle, model, design, intervals, verdict, found))

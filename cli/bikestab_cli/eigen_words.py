@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, table
+from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, table
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
     from bikestab.branches import Modes
     from bikestab.model import Model
-    from bikestab.records import Design, Interval
+    from bikestab.records import Design, Interval, Verdict
 
 COLUMNS = ("weave", "capsize", "castering")
 
 
-def told(bicycle: Bicycle, model: Model, design: Design, intervals: list[Interval], modes: Modes) -> str:
+def told(
+    bicycle: Bicycle, model: Model, design: Design, intervals: list[Interval], verdict: Verdict, modes: Modes
+) -> str:
     """The design, its stable speeds, where eigenvalues meet, and the table of eigenvalues."""
     meetings = "".join(line + "\n" for line in _meetings(modes, max(modes.V)))
     return "\n".join(
@@ -23,6 +25,7 @@ def told(bicycle: Bicycle, model: Model, design: Design, intervals: list[Interva
             heading(bicycle, model) + "\n",
             table(DESIGN_HEAD, [design_columns(design["lam"], design["sigma"], bicycle.c)]) + "\n",
             *([*map(interval_words, intervals)] or ["no stable speed"]),
+            *([f"marginal: {verdict['reason']}"] if verdict["marginal"] else []),
             meetings,
             _eigenvalue_table(modes),
         ]
@@ -31,10 +34,12 @@ def told(bicycle: Bicycle, model: Model, design: Design, intervals: list[Interva
 
 def interval_words(interval: Interval) -> str:
     """One interval of stable speeds in a sentence."""
-    lower = f"{interval['V1']:.6f} m/s ({interval['lower']})"
+    lower = f"{certain(interval['V1'], interval['V1_error'], 6)} m/s ({interval['lower']})"
     if interval["V2"] is None:
         return f"stable from {lower} on, without upper limit"
-    return f"stable from {lower} to {interval['V2']:.6f} m/s ({interval['upper']})"
+    return (
+        f"stable from {lower} to {certain(interval['V2'], interval['V2_error'], 6)} m/s ({interval['upper']})"
+    )
 
 
 def _meetings(modes: Modes, up_to: float) -> list[str]:

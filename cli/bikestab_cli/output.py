@@ -28,6 +28,22 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(line.rstrip() for line in lines)
 
 
+def certain(value: float, error: float | None, most: int = 12, style: str = "f") -> str:
+    """A number with the digits that it has wherever it is within ``error``; at most ``most`` of them.
+
+    These are digits behind the point, or in the style ``g`` all of them.
+    """
+    if error == 0:
+        return f"{value:.{most}{style}}"
+    if error is not None:
+        low, high = math.nextafter(value - error, -math.inf), math.nextafter(value + error, math.inf)
+        for digits in range(most, -1, -1):
+            text = f"{low:.{digits}{style}}"
+            if text == f"{high:.{digits}{style}}":
+                return text
+    return f"about {value:.6g}"
+
+
 def design_columns(lam: float, sigma: float, wheelbase: float) -> list[str]:
     """λ, head angle, σ and trail as they stand in every table."""
     return [f"{lam:.6g}", f"{90 - math.degrees(lam):.3f}", f"{sigma:.6g}", f"{sigma * wheelbase:.4f}"]

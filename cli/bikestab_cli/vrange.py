@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.options import ANGLES, TRAILS, json_option, load_bicycle, machine_options, told_as_options
-from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, print_json, table
+from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, print_json, table
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -38,6 +38,10 @@ def command(
     (a slow fall starts), rest (V = 0) or unbounded. Without --lam or --sigma the bicycle's own are
     taken. A range START:STOP:NUM gives a table.
 
+    Printed digits are certain. JSON has a bound on each end, V1_error and V2_error, within which the true
+    value for exactly these inputs lies, and says where rounding leaves open how many intervals there are or
+    how one ends: "marginal", with the "reason".
+
     Where there is no stable speed the answer says what would help: the nearest larger and smaller σ and the
     nearest λ that give one (searched over −0.2 ≤ λ ≤ 0.6 rad and −0.5 ≤ σ ≤ 0.5), and the speed up to
     50 m/s at which the motion is least unstable.
@@ -61,6 +65,10 @@ def command(
         return
     click.echo(heading(bicycle, model) + "\n")
     click.echo(table([*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], _rows(answers, bicycle.c)))
+    for answer in answers:
+        if answer["marginal"]:
+            design = f"λ = {answer['lam']:.6g}, σ = {answer['sigma']:.6g}"
+            click.echo(f"marginal at {design}: {answer['reason']}")
     if single and answers[0]["nearest"]:
         click.echo("\n" + _advice(answers[0], bicycle, model))
 
@@ -70,8 +78,11 @@ def _rows(answers: list[Answer], wheelbase: float) -> list[list[str]]:
     for result in answers:
         design = design_columns(result["lam"], result["sigma"], wheelbase)
         for interval in result["intervals"]:
-            V2 = "unbounded" if interval["V2"] is None else f"{interval['V2']:.12f} ({interval['upper']})"
-            rows.append([*design, f"{interval['V1']:.12f} ({interval['lower']})", V2])
+            V1 = f"{certain(interval['V1'], interval['V1_error'])} ({interval['lower']})"
+            V2 = interval["upper"]
+            if interval["V2"] is not None:
+                V2 = f"{certain(interval['V2'], interval['V2_error'])} ({V2})"
+            rows.append([*design, V1, V2])
             design = [""] * len(design)
         if not result["intervals"]:
             rows.append([*design, "no stable speed", ""])

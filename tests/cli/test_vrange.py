@@ -5,6 +5,7 @@ import math
 import os
 import subprocess
 import sys
+from fractions import Fraction
 from functools import partial
 
 import pytest
@@ -13,6 +14,30 @@ from bikestab_cli.main import main
 from bikestab.bicycle import Bicycle, preset_text
 from bikestab.family import Family
 from bikestab.region.nearest import nearest_stable
+
+MARGINAL = """\
+c: 1.366719592613359
+m1: 117.18605012616193
+l1: 0.48805149729931513
+h1: 0.6173145408567784
+A1: 10.650354688100574
+B1: 8.586438138359373
+D1: 1.0880158226153733
+C1: 0.0
+R1: 0.27054635618278766
+m2: 5.210978134841514
+l2: 1.2799822977701207
+h2: 0.6575843459872577
+A2: 0.310503671178041
+B2: 0.17124692898295865
+D2: 0.032059960520395586
+C2: 0.12056880026846259
+R2: 0.34886595703204015
+g: 9.81
+delta: 0.0
+lam: 0.27757981208067944
+sigma: 0.0008709921877530278
+"""
 
 
 @pytest.fixture
@@ -52,12 +77,15 @@ def test_json(vrange):
     assert list(found) == ["bicycle", "model", "delta", "results"]
     assert (found["bicycle"], found["model"], found["delta"]) == ("dikarev1981", "refined", 0.0)
     (result,) = found["results"]
-    assert list(result) == ["lam", "sigma", "head_angle_deg", "trail", "intervals", "nearest"]
+    assert list(result) == ["lam", "sigma", "head_angle_deg", "trail", "intervals", "marginal", "nearest"]
+    assert result["marginal"] is False
     assert (result["lam"], result["sigma"], result["nearest"]) == (0.2, 0.08, None)
     assert result["head_angle_deg"] == pytest.approx(90 - math.degrees(0.2))
     assert result["trail"] == pytest.approx(0.0832)
     (interval,) = result["intervals"]
-    assert list(interval) == ["V1", "V2", "lower", "upper"]
+    assert list(interval) == ["V1", "V2", "lower", "upper", "V1_error", "V2_error"]
+    assert 0 < interval["V1_error"] < 1e-12
+    assert 0 < interval["V2_error"] < 1e-12
     assert (interval["lower"], interval["upper"]) == ("weave", "capsize")
     assert interval["V1"] == pytest.approx(4.056, abs=1e-3)
     assert interval["V2"] == pytest.approx(4.636, abs=1e-3)
@@ -70,10 +98,32 @@ def test_json_has_full_precision(vrange):
     assert interval["V2"] == pytest.approx(6.024262015388358340853, abs=5e-15)
 
 
+def test_bounds_of_the_reference_values(vrange):
+    """The values of tests/references in 22 digits lie within the bounds; what is printed is certain."""
+    (result,) = results(vrange, "--bicycle", "meijaard2007")["results"]
+    (interval,) = result["intervals"]
+    for end, digits in (("V1", "4.292382536341103803652"), ("V2", "6.024262015388358340853")):
+        distance = abs(Fraction(interval[end]) - Fraction(digits))
+        assert distance <= Fraction(interval[f"{end}_error"]) + Fraction(1, 10**21)
+
+
+def test_what_rounding_leaves_open_is_told(vrange, tmp_path):
+    """Where weave and capsize meet to the last digits of the inputs; from 80-digit arithmetic."""
+    (tmp_path / "mine.yaml").write_text(MARGINAL, "utf-8")
+    (result,) = results(vrange, "--bicycle", "mine.yaml")["results"]
+    assert result["marginal"] is True
+    assert result["reason"] == "the order of two critical speeds is within rounding"
+    assert list(result)[-3:] == ["marginal", "reason", "nearest"]
+    _, out, _ = vrange("--bicycle", "mine.yaml")
+    assert (
+        f"marginal at λ = {result['lam']:.6g}, σ = {result['sigma']:.6g}: {result['reason']}\n" in out + "\n"
+    )
+
+
 def test_unbounded(vrange):
     (result,) = results(vrange, "--lam", "0.05", "--sigma", "0.15")["results"]
     (interval,) = result["intervals"]
-    assert (interval["V2"], interval["upper"]) == (None, "unbounded")
+    assert (interval["V2"], interval["V2_error"], interval["upper"]) == (None, None, "unbounded")
     _, out, _ = vrange("--lam", "0.05", "--sigma", "0.15")
     assert out.splitlines()[-1].endswith(" (weave)  unbounded")
 
