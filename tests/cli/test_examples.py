@@ -50,6 +50,7 @@ def run(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
 
     def run_lines(lines):
+        printed = []
         for line in lines:
             command, _, target = line.partition(" > ")
             monkeypatch.setattr(sys, "argv", shlex.split(command, comments=True))
@@ -58,8 +59,10 @@ def run(tmp_path, monkeypatch, capsys):
             out, err = capsys.readouterr()
             assert exit_.value.code == 0, f"{line}\n{err}"
             assert out, line
+            printed.append(out)
             if target:
                 Path(target.strip()).write_text(out, "utf-8")
+        return "".join(printed)
 
     return run_lines
 
@@ -81,3 +84,11 @@ def test_examples_of_a_help_text(run, name):
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
 def test_examples_of_a_page(run, path):
     run(from_markdown(path))
+
+
+def test_what_consoles_show_is_printed(run):
+    text = (ROOT / "README.md").read_text("utf-8")
+    shown = re.findall(r"^```console\n\$ (.*)\n((?:.*\n)*?)^```", text, re.M)
+    assert shown
+    for line, expected in shown:
+        assert run([line]) == expected
