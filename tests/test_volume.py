@@ -8,14 +8,16 @@ import pytest
 
 from bikestab import __version__
 from bikestab.bicycle import Bicycle
+from bikestab.export.summary import summary
 from bikestab.fields import AXES
 from bikestab.model import characteristic_table, exact_table
 from bikestab.routh import CONDITIONS, conditions, violated
+from bikestab.scanning.labels import MARGINAL
 from bikestab.scanning.run import run_scan
 from bikestab.spectrum import growth_rate_of
-from bikestab.speeds import KINDS, intervals_of
+from bikestab.speeds import KINDS, REASONS, intervals_of
 from bikestab.volume import Volume
-from tests.volumes import EQUAL, config_of
+from tests.volumes import EQUAL, OWN, config_of
 
 
 def columns_of(config):
@@ -34,7 +36,8 @@ def test_names_and_their_order(equal, own):
     with h5py.File(equal[0]) as file:
         assert list(file) == [
             "lam", "sigma", "V", "stable", "violated", "growth_rate", *CONDITIONS,
-            "interval", "V1", "V2", "lower", "upper", "root", "boundary", "VTKHDF",
+            "interval", "V1", "V2", "lower", "upper", "V1_error", "V2_error", "marginal",
+            "root", "boundary", "VTKHDF",
         ]  # fmt: skip
         assert list(file["boundary"]) == [f"{name}{end}" for name in CONDITIONS for end in ("", "_edge")]
     with h5py.File(own[0]) as file:
@@ -58,6 +61,9 @@ def test_names_and_their_order(equal, own):
         ("V2", "f8", ("lam", "sigma", "interval"), "m s-1"),
         ("lower", "u1", ("lam", "sigma", "interval"), "1"),
         ("upper", "u1", ("lam", "sigma", "interval"), "1"),
+        ("V1_error", "f8", ("lam", "sigma", "interval"), "m s-1"),
+        ("V2_error", "f8", ("lam", "sigma", "interval"), "m s-1"),
+        ("marginal", "u1", ("lam", "sigma"), "1"),
         ("boundary/p0", "f8", ("lam", "sigma", "root"), "m s-1"),
         ("boundary/hurwitz3_edge", "u1", ("lam", "sigma", "root"), "1"),
     ],
@@ -78,6 +84,7 @@ def test_flags(equal):
             ("stable", b"unstable stable"),
             ("lower", " ".join(KINDS).encode()),
             ("upper", b"none weave capsize rest unbounded"),
+            ("marginal", b"certain capsize_speed weave_speeds order_of_speeds signs width"),
             ("boundary/p0_edge", b"no_edge edge"),
         ):
             attributes = file[name].attrs
@@ -144,10 +151,25 @@ def test_intervals_are_the_exact_ones(equal, own):
         lam, sigma = config.grid.values("lam"), config.grid.values("sigma")
         expected = intervals_of(exact_table(config.machine, lam[:, np.newaxis], sigma, model=config.model))
         with h5py.File(path) as file:
-            for name in ("V1", "V2", "lower", "upper"):
-                values = getattr(expected, name)
-                np.testing.assert_array_equal(file[name][()], values)
+            for name in ("V1", "V2", "lower", "upper", "V1_error", "V2_error"):
+                np.testing.assert_array_equal(file[name][()], getattr(expected, name))
+            np.testing.assert_array_equal(file["marginal"][()], expected.marginal[..., 0])
             np.testing.assert_array_equal(file["interval"], range(1, expected.V1.shape[-1] + 1))
+
+
+def test_what_is_marginal(tmp_path):
+    """The nearest double to a design where an interval appears, and a design beside it."""
+    text = OWN.replace("[0, 0.015, 0.04834835, 0.2]", "[0.16676200182099016, 0.16676200182099019, 0.2]")
+    config = config_of(text, tmp_path)
+    with Volume(run_scan(config).path) as volume:
+        lam, sigma = config.grid.values("lam"), config.grid.values("sigma")
+        exact = intervals_of(exact_table(config.machine, lam[:, np.newaxis], sigma))
+        np.testing.assert_array_equal(volume.read("marginal"), exact.marginal[..., 0])
+        assert MARGINAL[volume.read("marginal", (1, 0))] == "width"
+        assert np.count_nonzero(volume.read("marginal")) == 1
+        assert volume.read("V1", (1, 0, 0)) == volume.read("V2", (1, 0, 0))
+        assert summary(volume)["designs_marginal"] == 1
+    assert len(MARGINAL) == len(REASONS)
 
 
 def test_none_two_and_unbounded(own):

@@ -31,6 +31,7 @@ def summary(volume: Volume) -> dict[str, Any]:
         "designs_with_a_stable_speed": int(np.count_nonzero(number)),
         "designs_with_several_intervals": int(np.count_nonzero(number > 1)),
         "designs_stable_without_upper_limit": int(np.count_nonzero(np.isinf(volume.read("V2")).any(axis=-1))),
+        "designs_marginal": int(np.count_nonzero(volume.read("marginal"))) if "marginal" in file else None,
         "largest_boundary_difference": float(checks["largest_difference"]),
         "largest_bracketed_difference": None if bracketed is None else float(bracketed),
         "bikestab_version": volume.text("bikestab_version"),

@@ -17,7 +17,7 @@ from bikestab.export.endings import file_format
 from bikestab.files import written
 from bikestab.model import Floats
 from bikestab.records import design_record
-from bikestab.speeds import KINDS
+from bikestab.speeds import KINDS, REASONS
 
 if TYPE_CHECKING:
     from bikestab.branches import Modes
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from bikestab.region.curves import Curve
     from bikestab.volume import Volume
 
+Indices = NDArray[np.intp]
 Block = dict[str, NDArray]  # some rows of a table: the columns, each of shape (row,)
 Columns = Mapping[str, tuple[str, str]]  # name → pyarrow's name of the type, unit
 
@@ -34,7 +35,8 @@ _DESIGN |= {"trail": ("float64", "m")}
 _TEXT = ("string", "")
 INTERVALS: Columns = {
     **_DESIGN, "interval": ("int32", "1"), "V1": ("float64", "m/s"), "V2": ("float64", "m/s"),
-    "lower": _TEXT, "upper": _TEXT,
+    "lower": _TEXT, "upper": _TEXT, "V1_error": ("float64", "m/s"), "V2_error": ("float64", "m/s"),
+    "marginal": _TEXT,
 }  # fmt: skip
 SKELETON: Columns = {
     "curve": ("int32", "1"), "name": _TEXT, "closes": ("bool", ""), "point": ("int32", "1"), **_DESIGN,
@@ -65,7 +67,16 @@ def interval_blocks(volume: Volume) -> Iterator[Block]:
         i, j, k = np.nonzero(upper)
         numbers = {"interval": (k + 1).astype(np.int32), "V1": V1[i, j, k], "V2": V2[i, j, k]}
         kinds = {"lower": words[lower[i, j, k]], "upper": words[upper[i, j, k]]}
-        yield {**_designs(lam[part][i], sigma[j], c), **numbers, **kinds}
+        yield {**_designs(lam[part][i], sigma[j], c), **numbers, **kinds, **_bounds(volume, part, i, j, k)}
+
+
+def _bounds(volume: Volume, part: slice, i: Indices, j: Indices, k: Indices) -> Block:
+    """The columns of what is certain, at intervals of a part of the volume; empty for an earlier build's."""
+    if "marginal" not in volume.file:
+        none = np.full(len(i), np.nan)
+        return {"V1_error": none, "V2_error": none, "marginal": np.full(len(i), "")}
+    errors = {name: volume.read(name, (part,))[i, j, k] for name in ("V1_error", "V2_error")}
+    return {**errors, "marginal": np.array(REASONS)[volume.read("marginal", (part,))[i, j]]}
 
 
 def skeleton_blocks(curves: Sequence[Curve], wheelbase: float) -> Iterator[Block]:

@@ -12,6 +12,9 @@ from bikestab.config.scanconfig import ScanConfig
 from bikestab.fields import AXES
 from bikestab.volume import parameters_text
 
+# value k of ``marginal``: speeds.REASONS[k] in a word
+MARGINAL = ("certain", "capsize_speed", "weave_speeds", "order_of_speeds", "signs", "width")
+
 
 def texts(config: ScanConfig) -> dict[str, str]:
     """The identity of a config, and the file's attributes that may differ where it does not."""

@@ -49,8 +49,8 @@ class Direction:
     def _note_across(self, column: int, V: Floats, sheet: Indices) -> None:
         """Which sheets touch or continue those of the tiles above and to the left.
 
-        ·  row            its last row of cells is kept until the tile below comes,
-        column  tile      and the last column of cells until the next tile of the row
+                row      the last cells of the tiles above, kept until the tile below comes
+        column  tile     the last cells of the tile before, kept until the next one of its row
         """
         if column == 0:
             self._borders.pop("column", None)  # a new row of tiles: none is before this one

@@ -21,7 +21,7 @@ from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
 from bikestab.scanning.agreement import Agreement
 from bikestab.scanning.chunks import packed, places
-from bikestab.scanning.labels import add_vtk_view, describe, file_attributes, flags, masks, words
+from bikestab.scanning.labels import MARGINAL, add_vtk_view, describe, file_attributes, flags, masks, words
 from bikestab.scanning.linking import widened
 from bikestab.scanning.plan import Plan
 from bikestab.scanning.sheets import Sheets
@@ -115,6 +115,11 @@ class VolumeWriter:
         for name in ("lower", "upper"):
             text = f"what happens at the {name} end of each stable interval"
             flags(self._column(name, "interval", np.uint8, "1", text), KINDS)
+        for name in ("V1", "V2"):
+            text = f"bound of the error of {name}: the true end for exactly these inputs is within it"
+            self._column(f"{name}_error", "interval", np.float64, "m s-1", text)
+        text = "what rounding leaves undecided of the number of intervals and of the kinds of their ends"
+        flags(self._create("marginal", ("lam", "sigma"), np.uint8, self.plan.tile[:2], "1", text), MARGINAL)
         self._counter("root", max(1, sheets), "number of the sheet of roots")
         self.file.create_group("boundary", track_order=True)
         for name in CONDITIONS:
@@ -142,8 +147,9 @@ class VolumeWriter:
     ) -> None:
         """Put a tile's intervals, boundary surfaces and, for an ensemble, their spread into the file."""
         for name, values in intervals._asdict().items():
-            if name in self._data:
+            if name != "marginal":
                 self._write_column(name, place, values)
+        self._write_designs("marginal", place, intervals.marginal[..., 0])
         for name, (V, edge) in surfaces.items():
             self._write_column(f"boundary/{name}", place, V)
             self._write_column(f"boundary/{name}_edge", place, edge)
@@ -152,8 +158,7 @@ class VolumeWriter:
             self._write_column("V1_quantiles", place, V1)
             self._write_column("V2_quantiles", place, V2)
             for k, name in enumerate(("probability_somewhere", "probability_unbounded")):
-                (chunk,) = packed(spread[..., k], self._data[name].chunks[-2:])
-                self._data[name].id.write_direct_chunk(place[:-1], chunk)
+                self._write_designs(name, place, spread[..., k])
         self._sink.check()
 
     def finish(self, stable_points: int, agreement: Agreement, bracketed: Agreement) -> None:
@@ -195,6 +200,13 @@ class VolumeWriter:
             return  # a chunk that is not there reads as the fill value
         (chunk,) = packed(widened(values, data.shape[-1], empty), data.chunks[-3:])
         data.id.write_direct_chunk((*place[:-1], 0), chunk)
+
+    def _write_designs(self, name: str, place: tuple[int, ...], values: NDArray) -> None:
+        """What each (λ, σ) has one of."""
+        if values.dtype == np.uint8 and not values.any():
+            return
+        (chunk,) = packed(values, self._data[name].chunks[-2:])
+        self._data[name].id.write_direct_chunk(place[:-1], chunk)
 
     def _scale(self, name: str, values: NDArray, unit: str, text: str) -> None:
         data = self.file.create_dataset(name, data=values, track_order=True)

@@ -2,6 +2,7 @@
 
 import csv
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from bikestab.export.endings import file_format
 from bikestab.export.meshes import MESHES, readable_scale, save_mesh
 from bikestab.export.tables import INTERVALS, SKELETON, interval_blocks, save_table, skeleton_blocks
 from bikestab.family import Family
-from bikestab.model import characteristic_table
+from bikestab.model import characteristic_table, exact_table
 from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import region_mesh
 from bikestab.routh import conditions
@@ -278,13 +279,18 @@ def test_intervals_are_those_of_every_design(volume, tmp_path):
     expected = []
     for lam in volume.axis("lam"):
         for sigma in volume.axis("sigma"):
-            found = intervals_of(characteristic_table(bicycle, lam, sigma))
+            found = intervals_of(exact_table(bicycle, lam, sigma))
             expected.extend(
-                [lam, sigma, k + 1, found.V1[k], found.V2[k], KINDS[found.lower[k]], KINDS[found.upper[k]]]
+                [
+                    lam, sigma, k + 1, found.V1[k], found.V2[k], found.V1_error[k], found.V2_error[k],
+                    KINDS[found.lower[k]], KINDS[found.upper[k]], "",
+                ]
                 for k in range(found.number)
-            )
-    names = ("lam", "sigma", "interval", "V1", "V2")
-    got = [[*(float(row[name]) for name in names), row["lower"], row["upper"]] for row in rows]
+            )  # fmt: skip
+    names = ("lam", "sigma", "interval", "V1", "V2", "V1_error", "V2_error")
+    got = [
+        [*(float(row[name]) for name in names), row["lower"], row["upper"], row["marginal"]] for row in rows
+    ]
     assert got == expected  # to the last digit
     assert {row["interval"] for row in rows} == {"1", "2"}
     assert {row["V2"] for row in rows if row["upper"] == "unbounded"} == {"inf"}
@@ -301,7 +307,7 @@ def test_parquet_holds_the_same(volume, tmp_path):
     table = parquet.read_table(tmp_path / "i.parquet")
     assert table.column_names == list(INTERVALS)
     assert [str(kind) for kind in table.schema.types] == [
-        *["double"] * 4, "int32", "double", "double", "string", "string",
+        *["double"] * 4, "int32", "double", "double", "string", "string", "double", "double", "string",
     ]  # fmt: skip
     assert math.inf in table["V2"].to_pylist()
     assert [{k: as_text(v) for k, v in row.items()} for row in table.to_pylist()] == read_csv(
@@ -328,7 +334,21 @@ def test_the_volume_is_read_in_layers(volume, tmp_path, monkeypatch):
         save_table(INTERVALS, interval_blocks(volume), tmp_path / f"layers{ending}", ABOUT)
     assert (tmp_path / "layers.csv").read_bytes() == (tmp_path / "whole.csv").read_bytes()
     assert parquet.ParquetFile(tmp_path / "layers.parquet").num_row_groups == 2
-    assert largest == 2 * [6, 4, 4, 4, 4, 4, 2, 2, 2, 2]  # λ, σ; V1, V2, lower, upper in two layers
+    assert largest == 2 * [
+        6,
+        4,
+        *[4] * 7,
+        *[2] * 7,
+    ]  # λ, σ; V1, V2, lower, upper and the bounds in two layers
+
+
+def test_a_volume_of_an_earlier_build_has_no_bounds(tmp_path):
+    with Volume(Path(__file__).parents[1] / "references" / "volumes" / "damped.h5") as volume:
+        save_table(INTERVALS, interval_blocks(volume), tmp_path / "i.csv", ABOUT)
+        number = np.count_nonzero(volume.read("upper"))
+    rows = read_csv(tmp_path / "i.csv")
+    assert len(rows) == number > 50
+    assert {(row["V1_error"], row["V2_error"], row["marginal"]) for row in rows} == {("", "", "")}
 
 
 def test_skeleton_is_every_point_of_every_curve(tmp_path):
