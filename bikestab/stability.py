@@ -15,7 +15,6 @@ from bikestab.arguments import Given, table_and_speeds
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
 from bikestab.model import Floats, Model
-from bikestab.spectrum import eigenvalues_of, growth_rate_of
 from bikestab.speeds import Intervals, intervals_of
 
 if TYPE_CHECKING:
@@ -114,6 +113,8 @@ def eigenvalues(
     >>> bs.eigenvalues(bike, np.linspace(0, 10, 101), lam=[[0.3], [0.4]]).shape
     (4, 2, 101)
     """
+    from bikestab.spectrum import eigenvalues_of  # stable speeds need none of it
+
     table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
     return eigenvalues_of(table.value, speeds)
 
@@ -151,6 +152,8 @@ def growth_rate(
     >>> bs.growth_rate(bike, [3, 5, 7]).round(6)
     array([ 1.706756, -0.322866,  0.102682])
     """
+    from bikestab.spectrum import growth_rate_of  # stable speeds need none of it
+
     table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
     return growth_rate_of(table.value, speeds)
 

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Literal, NamedTuple, TypedDict
+from typing import NamedTuple
 
 import numpy as np
 
 from bikestab.design.criteria import (
     WORSE,
     Wanted,
-    counted,
     decay,
-    judged,
     lowest,
     miss,
     missed_by,
@@ -23,43 +19,14 @@ from bikestab.design.criteria import (
     width_and_decay,
     width_if_decaying,
 )
+from bikestab.design.optimum import Criterion, JudgedDesign, finite, judged_design, own_design, place_of
 from bikestab.design.search import Found, axes, basins, minimise, minimise_all
 from bikestab.model import Floats
-from bikestab.speeds import KINDS
 
 GRID = 161  # values per axis to start from: a region narrower than a step of theirs may be missed
 FRONT = 6  # how many widths, and how many rates of decay, the front is searched for between its ends
 _STARTS = 15
-_VANISHING = 0.01  # m/s: an optimum at the rim whose interval is narrower has an interval only in name
-_BESIDE = 1e-4  # share of the box's sides at which the neighbours of an optimum are looked at
-_JUMP = 1e-3  # share of its value by which an optimum at a jump is better than a close neighbour
-_TOUCH = 1e-3  # m/s
 _SAME = 1e-4  # m/s, 1/s: designs of the front that differ less are one, found twice
-
-Criterion = Callable[[Wanted, Floats], Floats]
-Pick = Literal["widest", "lowest", "judged"]
-
-
-class Design(TypedDict):
-    """A design, one of its stable intervals, and its growth rate [s⁻¹] at the speed V [m/s] it is judged at.
-
-    V2 is None where unbounded. V1, V2 and their kinds are None, and width 0, where nothing is stable;
-    growth_rate is None where an eigenvalue is infinite. ``width`` ends at the cap. ``at`` says where an
-    optimum lies: ``interior``, or the limit, edge or jump that it lies at.
-    """
-
-    lam: float
-    sigma: float
-    head_angle_deg: float
-    trail: float
-    V1: float | None
-    V2: float | None
-    lower: str | None
-    upper: str | None
-    width: float
-    growth_rate: float | None
-    V: float
-    at: str
 
 
 class Best(NamedTuple):
@@ -70,23 +37,23 @@ class Best(NamedTuple):
     the lowest growth rate over the speeds that should be stable, or at its best speed.
     """
 
-    own: Design | None
-    widest: Design | None
-    lowest_V1: Design | None
-    fastest_decay: Design | None
-    pareto: list[Design]
-    closest: Design | None
+    own: JudgedDesign | None
+    widest: JudgedDesign | None
+    lowest_V1: JudgedDesign | None
+    fastest_decay: JudgedDesign | None
+    pareto: list[JudgedDesign]
+    closest: JudgedDesign | None
 
 
 def best_designs(wanted: Wanted, *, grid: int | None = None) -> Best:
     """Search the box, starting from grid × grid designs; the same question has the same answer."""
     search = _Search(wanted, grid or GRID)
-    own = _own(wanted)
+    own = own_design(wanted)
     nearest = search.best(miss) if search.on_grid(width).min() >= 0 else None
     if nearest and nearest.value > 0:
         V, rate = missed_by(wanted, wanted.table(nearest.x[:, np.newaxis]), rounds=7)
-        closest = _design(replace(wanted, stable=None), nearest.x)
-        closest |= {"V": float(V[0]), "growth_rate": _finite(rate[0])}
+        closest = judged_design(replace(wanted, stable=None), nearest.x)
+        closest |= {"V": float(V[0]), "growth_rate": finite(rate[0])}
         return Best(own, None, None, None, [], closest)
     if nearest:  # a region that the grid missed
         search.known.append(nearest.x)
@@ -96,10 +63,13 @@ def best_designs(wanted: Wanted, *, grid: int | None = None) -> Best:
         fast = Found(widest.x, as_widest)
     return Best(
         own,
-        _design(wanted, widest.x, "widest", _place(wanted, width, widest)),
-        _design(wanted, low.x, "lowest", _place(wanted, lowest, low)),
-        _design(wanted, fast.x, "judged", _place(wanted, decay, fast)),
-        [_design(wanted, best.x, at=_place(wanted, width, best)) for best in _front(search, widest, fast)],
+        judged_design(wanted, widest.x, "widest", place_of(wanted, width, widest)),
+        judged_design(wanted, low.x, "lowest", place_of(wanted, lowest, low)),
+        judged_design(wanted, fast.x, "judged", place_of(wanted, decay, fast)),
+        [
+            judged_design(wanted, best.x, at=place_of(wanted, width, best))
+            for best in _front(search, widest, fast)
+        ],
         None,
     )
 
@@ -173,91 +143,3 @@ def _front(search: _Search, widest: Found, fastest: Found) -> list[Found]:
         if last is None or max(abs(wide[i] - wide[last]), abs(growth[i] - growth[last])) > _SAME:
             apart.append(i)
     return [Found(x[:, i], float(-wide[i])) for i in apart]
-
-
-def _own(wanted: Wanted) -> Design | None:
-    own = wanted.family.own
-    if None in own:
-        return None
-    x = np.array(own, dtype=float)
-    low, high = wanted.box
-    inside = bool(np.all((low <= x) & (x <= high)))
-    allowed = bool(counted(wanted, wanted.table(x[:, np.newaxis])).any[0])
-    at = "" if inside and allowed else "not stable as asked" if inside else "outside the box"
-    return _design(wanted if allowed else replace(wanted, stable=None), x, at=at)
-
-
-def _design(wanted: Wanted, x: Floats, pick: Pick = "widest", at: str = "") -> Design:
-    """The design with the interval that made it the best: the widest, the lowest, the one of speed V."""
-    table = wanted.table(x[:, np.newaxis])
-    found = counted(wanted, table)
-    V, rate = judged(wanted, table, found, rounds=7)
-    V1, V2, lower, upper = (values[0] for values in found.intervals[:4])
-    wide = np.where(found.counts, np.minimum(V2, wanted.V_max) - V1, -1.0)[0]
-    merit = wide
-    if pick == "lowest":
-        merit = np.where(wide > 0, -V1, -np.inf)
-    elif pick == "judged" and np.any(hit := (wide > 0) & (V[0] >= V1) & (V[0] <= V2)):
-        merit = np.where(hit, 1.0, 0.0)
-    k = int(np.argmax(merit))
-    some = bool(found.intervals.upper[0, k])
-    lam, sigma, wheelbase = (float(value) for value in wanted.family.geometry(*x))
-    return Design(
-        lam=lam,
-        sigma=sigma,
-        head_angle_deg=90 - math.degrees(lam),
-        trail=sigma * wheelbase,
-        V1=float(V1[k]) if some else None,
-        V2=_finite(V2[k]),
-        lower=KINDS[lower[k]] if some else None,
-        upper=KINDS[upper[k]] if some else None,
-        width=max(float(wide[k]), 0.0),
-        growth_rate=_finite(rate[0]),
-        V=float(V[0]),
-        at=at,
-    )
-
-
-def _place(wanted: Wanted, criterion: Criterion, best: Found) -> str:
-    """Where in the box an optimum lies, from its coordinates and from designs just beside it."""
-    low, high = wanted.box
-    size = high - low
-    places = []
-    for i, name in enumerate((wanted.family.x, wanted.family.y)):
-        for end, given in ((low[i], wanted.y[0]), (high[i], wanted.y[1])):
-            if size[i] and abs(best.x[i] - end) <= 1e-6 * size[i]:
-                places.append(f"limit of {'trail' if i and end != given else name}")
-    near, far = (_beside(wanted, criterion, best.x, share * size) for share in (0.1 * _BESIDE, _BESIDE))
-    if far >= WORSE:
-        places.append("edge of the speeds asked for" if _touches(wanted, best.x) else _rim(wanted, best.x))
-    elif near - best.value > max(0.5 * (far - best.value), _JUMP * abs(best.value)):  # not less when nearer
-        places.append("jump")
-    return ", ".join(places) or "interior"
-
-
-def _beside(wanted: Wanted, criterion: Criterion, x: Floats, radii: Floats) -> float:
-    """The worst value on an ellipse around a design."""
-    angle = 2 * np.pi * np.arange(16) / 16
-    points = x[:, np.newaxis] + radii[:, np.newaxis] * np.array([np.cos(angle), np.sin(angle)])
-    return float(criterion(wanted, np.clip(points, *(end[:, np.newaxis] for end in wanted.box))).max())
-
-
-def _rim(wanted: Wanted, x: Floats) -> str:
-    """The words for an optimum beside which nothing is stable."""
-    found = counted(wanted, wanted.table(x[:, np.newaxis]))
-    vanishes = found.width[found.counts].min(initial=np.inf) < _VANISHING
-    return "edge of the stable region" + (", where the interval shrinks to a point" if vanishes else "")
-
-
-def _touches(wanted: Wanted, x: Floats) -> bool:
-    """Whether an interval ends where the speeds do that should be stable."""
-    if not wanted.stable:
-        return False
-    found = counted(wanted, wanted.table(x[:, np.newaxis]))
-    near = np.abs(found.intervals.V1 - wanted.stable[0]) < _TOUCH
-    near |= np.abs(found.intervals.V2 - wanted.stable[1]) < _TOUCH
-    return bool(np.any(near & found.counts))
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

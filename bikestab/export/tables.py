@@ -21,7 +21,7 @@ from bikestab.speeds import KINDS, REASONS
 
 if TYPE_CHECKING:
     from bikestab.branches import Modes
-    from bikestab.design.best import Design
+    from bikestab.design.optimum import JudgedDesign
     from bikestab.region.curves import Curve
     from bikestab.volume import Volume
 
@@ -103,7 +103,7 @@ def modes_blocks(modes: Modes) -> Iterator[Block]:
     yield {"V": np.repeat(modes.V, branches), "branch": branch, "name": names, "re": s.real, "im": s.imag}
 
 
-def front_blocks(front: Sequence[Design]) -> Iterator[Block]:
+def front_blocks(front: Sequence[JudgedDesign]) -> Iterator[Block]:
     """The rows of FRONT: one per design, the widest first; a number that is None is missing."""
     yield {
         name: np.array([design[name] for design in front], float if kind == "float64" else object)  # type: ignore[literal-required]

@@ -9,8 +9,9 @@ import numpy as np
 
 from bikestab.bicycle import Bicycle
 from bikestab.design import criteria
-from bikestab.design.best import Best, Design, best_designs
+from bikestab.design.best import Best, best_designs
 from bikestab.design.criteria import Wanted
+from bikestab.design.optimum import JudgedDesign
 from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.paper1981.box import LAM, PAPER_BOX, SIGMA, DesignBox, Range, V
@@ -25,7 +26,7 @@ JUDGED: dict[str, Range | None] = {
 }
 
 
-class Optimum(Design):
+class Optimum(JudgedDesign):
     """The best design by one criterion."""
 
     criterion: str

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, table
 
 if TYPE_CHECKING:
-    from bikestab.design.best import Best, Design
+    from bikestab.design.best import Best
     from bikestab.design.criteria import Wanted
+    from bikestab.design.optimum import JudgedDesign
 
 
 def told(wanted: Wanted, best: Best) -> str:
@@ -43,7 +44,7 @@ def _where_judged(wanted: Wanted) -> str:
     return f"at {start:g} m/s" if start == stop else f"at the worst speed from {start:g} to {stop:g} m/s"
 
 
-def _nothing(wanted: Wanted, closest: Design) -> str:
+def _nothing(wanted: Wanted, closest: JudgedDesign) -> str:
     """What there is where nothing is allowed, and what to loosen."""
     asked = f"with a stable speed below {wanted.V_max:g} m/s"
     if wanted.stable:
@@ -60,7 +61,7 @@ def _nothing(wanted: Wanted, closest: Design) -> str:
     )
 
 
-def _table(wanted: Wanted, first: str, designs: dict[str, Design]) -> str:
+def _table(wanted: Wanted, first: str, designs: dict[str, JudgedDesign]) -> str:
     head = [first, *DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]", "width [m/s]", "growth [1/s]", "at [m/s]"]
     rows = []
     for name, d in designs.items():
@@ -77,12 +78,12 @@ def _table(wanted: Wanted, first: str, designs: dict[str, Design]) -> str:
     return "\n".join(f"{line}  {place}".rstrip() for line, place in zip(lines, places, strict=True))
 
 
-def _is_cut(wanted: Wanted, design: Design) -> bool:
+def _is_cut(wanted: Wanted, design: JudgedDesign) -> bool:
     V2 = math.inf if design["V2"] is None else design["V2"]
     return design["V1"] is not None and wanted.V_max < V2
 
 
-def _notes(wanted: Wanted, designs: list[Design], best: Best) -> list[str]:
+def _notes(wanted: Wanted, designs: list[JudgedDesign], best: Best) -> list[str]:
     notes = []
     if any(_is_cut(wanted, design) for design in designs):
         notes.append(f"* the interval goes on above {wanted.V_max:g} m/s, up to which widths count (--V-max)")
