@@ -10,6 +10,7 @@ from contourpy import contour_generator
 
 from bikestab.family import Family
 from bikestab.model import Floats
+from bikestab.region.onto import downhill
 from bikestab.routh import condition_polynomials, conditions
 
 
@@ -70,19 +71,5 @@ def zero_curves(section: Section, name: str, X: Floats, Y: Floats) -> list[tuple
     samples = value(X[np.newaxis, :], Y[:, np.newaxis])
     lines = cast("list[Floats]", contour_generator(X, Y, samples).lines(0.0))
     steps = (X[1] - X[0], Y[1] - Y[0])
-    return [_onto_zero(value, line[:, 0], line[:, 1], steps) for line in lines]
-
-
-def _onto_zero(value: Any, x: Floats, y: Floats, steps: tuple[float, float]) -> tuple[Floats, Floats]:
-    """Move points that are near a zero onto it, along the gradient in units of the sample steps."""
-    dx, dy = steps
-    for _ in range(3):
-        f = value(x, y)
-        h = 1e-4
-        fx = (value(x + h * dx, y) - value(x - h * dx, y)) / (2 * h)
-        fy = (value(x, y + h * dy) - value(x, y - h * dy)) / (2 * h)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            move = f / (fx**2 + fy**2)
-        move = np.where(np.abs(move) * np.hypot(fx, fy) < 1, move, 0)  # a sample step at most
-        x, y = x - move * fx * dx, y - move * fy * dy
-    return x, y
+    moved = (downhill(lambda points: value(*points), line.T, steps) for line in lines)
+    return [(x, y) for x, y in moved]
