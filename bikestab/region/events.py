@@ -14,7 +14,7 @@ from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.polynomials import derivative, value
 from bikestab.region.sides import sides
-from bikestab.region.skeleton import CurveName, Skeleton, in_units, reduced, units
+from bikestab.region.skeleton import CurveName, in_units, speed_polynomials, units
 from bikestab.roots import positive_roots
 from bikestab.routh import conditions
 from bikestab.speeds import intervals_of
@@ -74,21 +74,32 @@ class Event(NamedTuple):
 def event_at(box: Box, key: CurveName, points: Floats) -> Event:
     """What happens at points (2, point) of a curve."""
     if key.endswith(("infinity", "rest")):
-        found = _event_at_an_end(key, reduced(box.table(points)))
+        event = _event_at_an_end(key, speed_polynomials(box.table(points)).polynomials)
     elif key == "singular inertia":
         return _event_of_inertia(box, points)
     else:
-        found = _event_within(key, box.table(points))
-    V, (low, high) = found.V, box.V
+        event = _event_within(key, box.table(points))
+    V, (low, high) = event.V, box.V
     inside = (low <= V) & (high >= V)
-    return found._replace(holds=np.vstack([found.holds, inside]), ends=(*found.ends, "box"))
+    return event._replace(holds=np.vstack([event.holds, inside]), ends=(*event.ends, "box"))
 
 
 def _event_within(key: CurveName, table: Floats) -> Event:
-    found = reduced(table)
-    x = _common_root(key, found)
-    V, exists = x ** (1 / found.power), np.isfinite(x)
-    weave, p0 = found.polynomials["hurwitz3"], found.polynomials["p0"]
+    # designs to the right, V upwards, s = stable, w = weave and c = capsize speeds:
+    #
+    #    fold: closes     or two become one      meet: closes      or an end changes
+    #
+    #      w ----.            s       s            w ----.          w ----.  .---- c
+    #        s    )         w ----.   s              s    >                ><
+    #      w ----'                 )  s            c ----'          c ----'  '---- w
+    #                       w ----'   s                                 s      s
+    #                         s       s
+    #
+    # The curvature of hurwitz3 tells the first two apart, the slopes of p0 and hurwitz3 the others.
+    polynomials, power = speed_polynomials(table)
+    x = _common_root(key, polynomials)
+    V, exists = x ** (1 / power), np.isfinite(x)
+    weave, p0 = polynomials["hurwitz3"], polynomials["p0"]
     with np.errstate(invalid="ignore"):
         p = conditions(table, V)
         needed = {
@@ -106,13 +117,13 @@ def _event_within(key: CurveName, table: Floats) -> Event:
     return Event(V, np.array(list(needed.values())), tuple(needed), closes)
 
 
-def _event_at_an_end(key: CurveName, found: Skeleton) -> Event:
+def _event_at_an_end(key: CurveName, polynomials: dict[str, Floats]) -> Event:
     """A root of p0 or hurwitz3 leaves to infinity or to rest: the others must be positive there."""
     infinite = key.endswith("infinity")
     at = -1 if infinite else 0
     own = "p0" if key.startswith("capsize") else "hurwitz3"
     names = [name for name in ("p0", "p1", "p2", "p3", "p4", "hurwitz3") if name != own]
-    values = np.array([found.polynomials[name][at] for name in names])
+    values = np.array([polynomials[name][at] for name in names])
     # p1 is a factor of hurwitz3's coefficient, and then zero but for rounding
     allowed = np.array(
         [1e-9 * np.abs(v).max() if name == "p1" else 0.0 for name, v in zip(names, values, strict=True)]
@@ -139,9 +150,9 @@ def _event_of_inertia(box: Box, points: Floats) -> Event:
     return Event(V, (number[0] != number[1])[np.newaxis], ("weave",), np.zeros(len(V), bool))
 
 
-def _common_root(key: CurveName, found: Skeleton) -> Floats:
-    """The positive x (point,) at which two of the reduced conditions vanish together; NaN where none does."""
-    weave, p0, p1, p3, q = (found.polynomials[name] for name in ("hurwitz3", "p0", "p1", "p3", "q"))
+def _common_root(key: CurveName, polynomials: dict[str, Floats]) -> Floats:
+    """The positive x (point,) at which two of the conditions vanish together; NaN where none does."""
+    weave, p0, p1, p3, q = (polynomials[name] for name in ("hurwitz3", "p0", "p1", "p3", "q"))
     candidates, other = {
         "fold": (derivative(weave), weave),
         "crossing": (p1, p3),

@@ -17,7 +17,7 @@ from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.region.curves import trace
 from bikestab.region.events import Box, event_at
-from bikestab.region.skeleton import CurveName, reduced
+from bikestab.region.skeleton import CurveName, speed_polynomials
 from bikestab.region.triangulation import FACES, Index, Plane, halved, triangulated
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import CAPSIZE, NONE, WEAVE, critical_speeds, intervals_of
@@ -96,7 +96,7 @@ def region_mesh(
 
 
 def _has_walls(box: Box) -> bool:
-    p0 = reduced(box.table(np.random.default_rng(0).uniform(size=(2, 10_000)))).polynomials["p0"]
+    p0 = speed_polynomials(box.table(np.random.default_rng(0).uniform(size=(2, 10_000)))).polynomials["p0"]
     return len(p0) == 1 and bool(p0.min() < 0 < p0.max())
 
 

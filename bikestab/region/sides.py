@@ -13,13 +13,13 @@ import numpy as np
 
 from bikestab.model import Floats
 from bikestab.polynomials import derivative, product, total, value
-from bikestab.region.skeleton import CurveName, curve_functions, reduced
+from bikestab.region.skeleton import CurveName, curve_functions, speed_polynomials
 from bikestab.roots import positive_roots
 
 
 def sides(table: Floats, names: Sequence[CurveName]) -> dict[CurveName, Floats]:
     """The functions of ``curve_functions``, (*shape), which may also jump where a root leaves V > 0."""
-    polynomials, power = reduced(table)
+    polynomials, power = speed_polynomials(table)
     if power == 2:
         return curve_functions(table, names)
     p0, p1, p2, p3, p4 = table

@@ -24,7 +24,7 @@ CurveName = Literal[
 _LOG = 700.0  # of the largest and smallest determinants that are told apart
 
 
-class Skeleton(NamedTuple):
+class SpeedPolynomials(NamedTuple):
     """The conditions as polynomials in x = V² (or V where damping mixes the powers), lowest power first.
 
     ``power`` is 2 or 1. Powers that no cell has are stripped from both ends of each.
@@ -34,14 +34,16 @@ class Skeleton(NamedTuple):
     power: int
 
 
-def reduced(table: Floats) -> Skeleton:
+def speed_polynomials(table: Floats) -> SpeedPolynomials:
     """The conditions of a table (5, 4, *shape), and q = p2 p3 − p4 p1: at p0 = 0 hurwitz3 is p1 q."""
-    found = condition_polynomials(table)
+    conditions = condition_polynomials(table)
     first, second = product(table[2], table[3]), product(table[4], table[1])
-    found["q"] = settled(total(first, -second), total(np.abs(first), np.abs(second)))
-    short = {name: trimmed(poly) for name, poly in found.items()}
+    conditions["q"] = settled(total(first, -second), total(np.abs(first), np.abs(second)))
+    short = {name: trimmed(poly) for name, poly in conditions.items()}
     odd = any(poly[1::2].any() for poly in short.values())
-    return Skeleton({name: poly if odd else poly[::2] for name, poly in short.items()}, 1 if odd else 2)
+    return SpeedPolynomials(
+        {name: poly if odd else poly[::2] for name, poly in short.items()}, 1 if odd else 2
+    )
 
 
 def curve_functions(
@@ -56,7 +58,7 @@ def curve_functions(
     - … at infinity, at rest: the highest or lowest coefficient of p0 or hurwitz3;
     - singular inertia: p4 = 0, where an eigenvalue is infinite.
     """
-    polynomials, _ = reduced(table)
+    polynomials, _ = speed_polynomials(table)
     p0, p1, p3, weave, q = (polynomials[name] for name in ("p0", "p1", "p3", "hurwitz3", "q"))
     functions: dict[CurveName, Callable[[], Floats]] = {
         "fold": lambda: _discriminant(weave),

@@ -16,7 +16,7 @@ from bikestab.errors import ScanError
 from bikestab.model import Floats
 from bikestab.region.curves import Curve
 from bikestab.region.events import Box, event_at
-from bikestab.region.skeleton import CurveName, reduced
+from bikestab.region.skeleton import CurveName, speed_polynomials
 from bikestab.routh import conditions
 
 Index = NDArray[np.intp]
@@ -237,7 +237,7 @@ def _matters(box: Box, name: CurveName, points: Floats) -> NDArray[np.bool_]:
 
 
 def _on_face(box: Box, condition: str, side: int, points: Floats) -> Floats:
-    found = reduced(box.table(points))
+    found = speed_polynomials(box.table(points))
     return polynomials.value(
         found.polynomials[condition], np.full(points.shape[1], box.V[side] ** found.power)
     )

@@ -10,7 +10,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.lines import Line, crossings, lowest_stable, stable_ranges
-from bikestab.region.skeleton import curve_functions, reduced
+from bikestab.region.skeleton import curve_functions, speed_polynomials
 from bikestab.routh import stable
 from bikestab.speeds import intervals_of
 from tests.strategies import machines, sigmas
@@ -129,7 +129,7 @@ def test_the_discriminant_has_the_sign_of_the_roots():
     """Without damping hurwitz3 is quadratic in x = V²: two real roots, or none, in x."""
     lam, sigma = np.meshgrid(np.linspace(0, 0.6, 30), np.linspace(0, 0.5, 30))
     table = characteristic_table(DIKAREV, lam, sigma)
-    c, b, a = reduced(table).polynomials["hurwitz3"]
+    c, b, a = speed_polynomials(table).polynomials["hurwitz3"]
     value = curve_functions(table)["fold"]
     np.testing.assert_array_equal(np.sign(value), np.sign(4 * a * c - b * b))
 
@@ -139,7 +139,7 @@ def test_the_discriminant_has_the_sign_of_the_roots():
 def test_a_resultant_is_a_product_over_the_roots(delta, name, pair):
     lam, sigma = np.linspace(0.05, 0.55, 7), np.linspace(0.45, 0.03, 7)
     table = characteristic_table(DIKAREV.with_delta(delta), lam, sigma)
-    polynomials = reduced(table).polynomials
+    polynomials = speed_polynomials(table).polynomials
     f, g = (polynomials[key] for key in pair)
     value = curve_functions(table)[name]
     product = [np.prod(np.polyval(f[::-1, i], np.roots(g[::-1, i]))).real for i in range(7)]
