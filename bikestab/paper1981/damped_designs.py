@@ -45,7 +45,6 @@ class DampedDesign:
     sweep: list[Ends]
     V1_marked_from: float | None
     V2_marked_from: float | None
-    V2_change_largest: float | None
     stable_from: float | None
     at_onset: Ends | None
     kinematic_damping: float | None
@@ -74,7 +73,6 @@ def _single_design(bicycle: Bicycle, lam: float, sigma: float, deltas: tuple[flo
         sweep=sweep,
         V1_marked_from=claims.first_marked(deltas, V1) if without.V1 else None,
         V2_marked_from=claims.first_marked(deltas, V2) if without.V2 else None,
-        V2_change_largest=max((abs(change) for change in V2 if change is not None), default=None),
         stable_from=onset,
         at_onset=_ends(bicycle, lam, sigma, onset * (1 + 1e-9)) if onset else None,
         kinematic_damping=b1 * without.V1 / bicycle.c if without.V1 else None,

@@ -67,7 +67,13 @@ def from_delta(delta: float | None) -> str:
 
 def ranges(found: Sequence[Sequence[float]]) -> str:
     """Ranges of λ or σ."""
-    return ", ".join(f"{low:.6g} … {high:.6g}" for low, high in found) or "none"
+    joined: list[list[str]] = []
+    for low, high in ([f"{end:.6g}" for end in ends] for ends in found):
+        if joined and joined[-1][1] == low:  # the gap between is too narrow to print
+            joined[-1][1] = high
+        else:
+            joined.append([low, high])
+    return ", ".join(" … ".join(ends) for ends in joined) or "none"
 
 
 def interval(V1: float | None, lower: str | None, V2: float | None, upper: str | None) -> str:

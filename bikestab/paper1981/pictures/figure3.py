@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import cast
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import TickedStroke
@@ -23,6 +22,9 @@ from bikestab.region.mesh import Mesh
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import CONDITIONS
 
+# black, blue, vermilion, green, purple, orange of Okabe and Ito (2008), darkened where text needs it
+_COLOURS = ("#000000", "#0072b2", "#d55e00", "#00795a", "#a8558a", "#b07700")
+_LEAST_APART = 0.037  # of the speeds' axis: a line of text
 _FAMILIES: dict[Axis, tuple[float, ...]] = {"lam": FAMILY_LAM, "sigma": FAMILY_SIGMA}
 
 
@@ -35,27 +37,53 @@ def draw_sections(bicycle: Bicycle, samples: int) -> Figure:
     handles.append(entry("ticks: stable side", color="0.2", lw=0.9, path_effects=[TickedStroke(**TICKS)]))
     legend_below(figure, handles)
     figure.suptitle(
-        f"{bicycle.name}: boundaries of the stability region (figure 3 of the paper)", fontsize=11
+        f"{bicycle.name}: boundaries of the stability region, computed for the box of figure 3", fontsize=11
     )
     return figure
 
 
 def _family(ax: Axes, bicycle: Bicycle, fixed: Axis, values: tuple[float, ...], samples: int) -> None:
     """The boundaries in parallel planes, in which λ or σ has one of the values."""
-    colours = colormaps["viridis"](np.linspace(0, 0.82, len(values)))
-    handles = []
     x_name, y_name = Section(Family(bicycle), fixed, values[0]).axes
     X, Y = (np.linspace(*ENDS[name], samples) for name in (x_name, y_name))
-    for value, colour in zip(values, colours, strict=True):
+    ends: list[tuple[float, float, str, str]] = []
+    for value, colour in zip(values, _COLOURS, strict=True):
         section = Section(Family(bicycle), fixed, value)
+        drawn = {name: edge_curves(section, name, X, Y) for name in EDGES}
         for name, (_, style) in EDGES.items():
-            for x, y in edge_curves(section, name, X, Y):
+            for x, y in drawn[name]:
                 draw_ticked(ax, section, CONDITIONS, x, y, color=colour, ls=style)
-        unit = " rad" if fixed == "lam" else ""
-        handles.append(entry(f"{SYMBOLS[fixed]} = {value:.2f}{unit}", color=colour, lw=2))
+        points = np.concatenate(drawn["p0"] or drawn["hurwitz3"], axis=1)
+        last = points[:, np.argmax(points[0] / X[-1] + points[1] / Y[-1])]  # where it leaves the picture
+        ends.append((float(last[0]), float(last[1]), f"{SYMBOLS[fixed]} = {value:.2f}", colour))
     ax.set(xlim=ENDS[x_name], ylim=ENDS[y_name])
     label_axes(ax, x_name, y_name, bicycle.c)
-    ax.legend(handles=handles, loc="upper left" if fixed == "lam" else "upper right", fontsize=9)
+    _label_ends(ax, ends, X[-1], Y[-1])
+
+
+def _label_ends(ax: Axes, ends: list[tuple[float, float, str, str]], right: float, top: float) -> None:
+    """Names beside the curves' ends (x, y, name, colour): right of the picture, or at its top."""
+    lowest = -np.inf
+    for x, y, name, colour in sorted(ends, key=lambda end: end[1]):
+        if x < 0.97 * right or y > 0.97 * top:
+            ax.text(
+                x,
+                top * 0.985,
+                name,
+                color=colour,
+                ha="right",
+                va="top",
+                rotation=90,
+                fontsize=9,
+                path_effects=HALO,
+            )
+            continue
+        lowest = max(y, lowest + _LEAST_APART * top)
+        line = {"arrowstyle": "-", "color": colour, "lw": 0.6, "shrinkA": 0, "shrinkB": 0}
+        ax.annotate(
+            name, (x, y), (1.03 * right, lowest), color=colour, va="center", fontsize=9,
+            annotation_clip=False, arrowprops=line,
+        )  # fmt: skip
 
 
 def draw_space(bicycle: Bicycle, mesh: Mesh) -> Figure:
@@ -68,5 +96,5 @@ def draw_space(bicycle: Bicycle, mesh: Mesh) -> Figure:
     ax.plot(*tip[:, np.newaxis], color="black", marker="v", ms=9, zorder=9)  # the arrow is vertical
     ax.text(*start, "stable", ha="center", va="bottom", zorder=9, path_effects=HALO)
     legend_below(figure, handles, ncols=2, handlelength=2)
-    ax.set_title(f"{bicycle.name}: the stability region (figure 3 of the paper)", fontsize=10)
+    ax.set_title(f"{bicycle.name}: the stability region, computed for the box of figure 3", fontsize=10)
     return figure

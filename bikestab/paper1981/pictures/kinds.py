@@ -22,35 +22,69 @@ from bikestab.region.curves import trace
 
 _KINDS = {"no stable speed": "#ffffff", "bounded interval": "#bcd7ea", "no upper limit": "#e69f00"}
 _TOP = 1.6 * SIGMA[1]  # of the picture, above the paper's box
+_INSET = DesignBox((0.0460, 0.0510), (0.1485, 0.1545))  # where two intervals are possible
+_INSET_AT = (0.77, 0.71, 0.21, 0.25)  # in the picture
+_LEAST = 0.01  # of a side: a shorter curve is not seen
 
 
 def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], samples: int) -> Figure:
-    """Kinds of designs over (λ, σ), with the exact curves between them and counterexamples (λ, σ)."""
-    figure = Figure(figsize=(8.2, 6.2), layout="constrained")
+    """Kinds of designs over (λ, σ), with the exact curves between them and counterexamples (λ, σ).
+
+    The line b = 0 and an inset where two intervals meet the box.
+    """
+    figure = Figure(figsize=(8.2, 6.6), layout="constrained")
     ax = figure.add_subplot()
-    sigma = (SIGMA[0], _TOP)
-    designs = map_designs(bicycle, samples, DesignBox(LAM, sigma))
-    kind = np.where(designs.unbounded, 2, (designs.number > 0).astype(int))
-    ax.pcolormesh(
-        designs.lam[:, 0], designs.sigma, kind.T, cmap=ListedColormap(list(_KINDS.values())), vmin=0, vmax=2,
-        shading="nearest", rasterized=True,
-    )  # fmt: skip
-    styles = {}
-    for curve in trace(Family(bicycle), LAM, sigma, samples=samples):
-        styles[curve.name] = color, dashes = CURVES[curve.name]
-        draw_on_white(ax, [(curve.x, curve.y)], lw=1.8, color=color, ls=dashes)
+    styles = _kinds(ax, bicycle, DesignBox(LAM, (SIGMA[0], _TOP)), samples)
     _box(ax)
+    _no_offset(ax, bicycle)
     _numbered(ax, examples)
-    ax.set(xlim=LAM, ylim=sigma)
     label_axes(ax, "lam", "sigma", bicycle.c)
+    inset = ax.inset_axes(_INSET_AT)
+    styles |= _kinds(inset, bicycle, _INSET, samples)
+    inset.axhline(SIGMA[1], color="black", lw=1.6)
+    inset.set_xticks([0.046, 0.048, 0.05])
+    inset.set_yticks([0.15, 0.152, 0.154])
+    inset.tick_params(labelsize=8)
+    ax.indicate_inset_zoom(inset, edgecolor="0.3")
     handles: list[Any] = [
-        Patch(facecolor=c, edgecolor="0.4", lw=0.6, label=name) for name, c in _KINDS.items()
+        Patch(facecolor=color, edgecolor="0.4", lw=0.6, label=name) for name, color in _KINDS.items()
     ]
     handles += [entry(name, color=color, ls=dashes) for name, (color, dashes) in styles.items()]
     handles.append(entry("counterexamples", ls="", marker="o", mfc="white", mec="black"))
     legend_below(figure, handles, handlelength=2.8)
     ax.set_title(f"{bicycle.name}: which designs have an upper limit of the stable speed", fontsize=10)
     return figure
+
+
+def _kinds(ax: Axes, bicycle: Bicycle, box: DesignBox, samples: int) -> dict[str, tuple[str, Any]]:
+    """The kinds and the curves between them in a box; what the curves look like."""
+    designs = map_designs(bicycle, samples, box)
+    kind = np.where(designs.unbounded, 2, (designs.number > 0).astype(int))
+    ax.pcolormesh(
+        designs.lam[:, 0], designs.sigma, kind.T, cmap=ListedColormap(list(_KINDS.values())), vmin=0, vmax=2,
+        shading="nearest", rasterized=True,
+    )  # fmt: skip
+    styles: dict[str, tuple[str, Any]] = {}
+    for curve in trace(Family(bicycle), box.lam, box.sigma, samples=samples):
+        visible = max(np.ptp(curve.x) / np.ptp(box.lam), np.ptp(curve.y) / np.ptp(box.sigma))
+        if visible > _LEAST:
+            styles[curve.name] = color, dashes = CURVES[curve.name]
+            draw_on_white(ax, [(curve.x, curve.y)], lw=1.8, color=color, ls=dashes)
+    ax.set(xlim=box.lam, ylim=box.sigma)
+    return styles
+
+
+def _no_offset(ax: Axes, bicycle: Bicycle) -> None:
+    """The line b = 0, below which forks are bent forwards."""
+    lam = np.linspace(*LAM, 101)
+    ax.plot(lam, bicycle.R2 / bicycle.c * np.tan(lam), color="#00795a", lw=1.8, zorder=4)
+    ax.text(
+        0.285, 0.03, "b > 0: forks bent forwards", color="#00795a", ha="right", path_effects=HALO, zorder=5
+    )
+    at = (0.2, bicycle.R2 / bicycle.c * np.tan(0.2))
+    ax.annotate(
+        "b = 0", at, (6, -13), textcoords="offset points", color="#00795a", path_effects=HALO, zorder=5
+    )
 
 
 def _box(ax: Axes) -> None:
