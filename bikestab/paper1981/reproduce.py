@@ -18,9 +18,10 @@ from bikestab.paper1981.box import FULL, LAM, SIGMA, Sampling, V
 from bikestab.paper1981.margin import searched, whole_box
 from bikestab.paper1981.refinement import SECTION
 from bikestab.paper1981.report import rendered
-from bikestab.paper1981.study import Progress, Study, plain, study
+from bikestab.paper1981.study import TABLE, Progress, Study, plain, study
 from bikestab.plot.designs import draw_designs
 from bikestab.plot.files import save
+from bikestab.plot.side import draw_side
 from bikestab.region.curves import trace
 from bikestab.region.mesh import region_mesh
 
@@ -55,6 +56,7 @@ def draw_all(numbers: Study, sampling: Sampling) -> Iterator[tuple[str, Figure]]
         for model in MODELS
     }
     samples, conclusions = sampling.picture, numbers.conclusions
+    yield "machine.png", draw_side(bicycle, *TABLE[0])
     yield "figure3.png", pictures.draw_sections(bicycle, samples)
     yield "figure3_space.png", pictures.draw_space(bicycle, meshes["refined"])
     yield "refinement.png", pictures.draw_refinement(bicycle, SECTION, meshes, samples)

@@ -28,6 +28,7 @@ FAMILY_SIGMA = (0.06, 0.08, 0.10, 0.12, 0.14, 0.15)
 ARROW = ((0.22, 0.125, 12.5), (0.22, 0.125, 4.9))  # λ, σ, V: from outside into the stable region
 TABLE = ((0.20, 0.08), (0.30, 0.10), (0.05, 0.15), (0.015, 0.1475), (0.10, 0.08))  # (λ, σ)
 FIGURES = {
+    "machine.png": "the machine from its side, to scale, with its symbols",
     "figure3.png": "boundaries in (σ, V) at several λ and in (λ, V) at several σ",
     "figure3_space.png": "the region in three dimensions",
     "refinement.png": "the refined and the unrefined model side by side",

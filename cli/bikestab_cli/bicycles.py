@@ -3,19 +3,37 @@
 from __future__ import annotations
 
 import textwrap
+from pathlib import Path
 
 import click
-from bikestab_cli.options import NAME, json_option
+from bikestab_cli.options import (
+    FILE,
+    NAME,
+    check_files,
+    json_option,
+    tilt_option,
+    told_as_options,
+    trail_option,
+)
 from bikestab_cli.output import print_json
 
 
 @click.command("bicycles")
 @click.argument("name", type=NAME, required=False)
+@click.option(
+    "-o", "--output", type=FILE, metavar="FILE",
+    help="Draw NAME, or the bicycle in a file, from its side: PNG, PDF or SVG.",
+)  # fmt: skip
+@tilt_option
+@trail_option
 @json_option
-def command(name: str | None, as_json: bool) -> None:
+def command(
+    name: str | None, output: str | None, lam: float | None, sigma: float | None, as_json: bool
+) -> None:
     """List the bicycles that come with bikestab.
 
-    With NAME, print the YAML file of that one.
+    With NAME, print the YAML file of that one. With -o, draw it to scale with the symbols of the paper, at
+    its own tilt and trail where --lam and --sigma give no others.
 
     Such a file, changed to taste, serves as --bicycle FILE and as 'bicycle: FILE' in a config.
 
@@ -23,9 +41,18 @@ def command(name: str | None, as_json: bool) -> None:
     Examples:
       bikestab bicycles
       bikestab bicycles meijaard2007 > mine.yaml
+      bikestab bicycles mine.yaml -o side.png
+      bikestab bicycles dikarev1981 --lam 0.2 --sigma 0.08 -o side.png
     """
     from bikestab.bicycle import Bicycle, preset_names, preset_text
 
+    if output:
+        _draw(name, output, lam, sigma)
+        return
+    if lam is not None or sigma is not None:
+        raise click.UsageError(
+            "--lam and --sigma are for a picture: give -o FILE", click.get_current_context()
+        )
     chosen = [Bicycle.preset(n) for n in ([name] if name else preset_names())]
     if as_json:
         print_json(
@@ -47,3 +74,19 @@ def command(name: str | None, as_json: bool) -> None:
         click.echo(f"  {own}")
         for text in bicycle.warnings:
             click.echo(textwrap.fill(f"warning: {text}", 96, initial_indent="  ", subsequent_indent="    "))
+
+
+def _draw(name: str | None, output: str, lam: float | None, sigma: float | None) -> None:
+    from bikestab.arguments import design_of
+    from bikestab.bicycle import Bicycle
+    from bikestab.plot.files import save
+    from bikestab.plot.side import draw_side
+
+    if name is None:
+        raise click.UsageError("a picture is of one bicycle: give its NAME", click.get_current_context())
+    check_files(output)
+    bicycle = Bicycle.load(name)
+    with told_as_options():
+        design = design_of(bicycle, lam, sigma)
+    save(draw_side(bicycle, *(float(value) for value in design)), Path(output))
+    click.echo(output)

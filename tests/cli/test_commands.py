@@ -408,3 +408,13 @@ def test_no_traceback_even_of_its_own_mistakes(bikestab, monkeypatch):
     assert first.startswith("error: a mistake of bikestab itself (ZeroDivisionError: no such luck xxx")
     assert len(first) < 250
     assert "python -X dev -m bikestab" in hint
+
+
+def test_a_side_view(bikestab, tmp_path):
+    code, out, _ = bikestab("bicycles", "meijaard2007", "-o", str(tmp_path / "side.png"))
+    assert (code, out) == (0, f"{tmp_path / 'side.png'}\n")
+    assert (tmp_path / "side.png").read_bytes().startswith(b"\x89PNG")
+    assert bikestab("bicycles", "-o", str(tmp_path / "side.png"))[0] == 2
+    assert bikestab("bicycles", "dikarev1981", "-o", str(tmp_path / "no.png"))[0] == 2  # no design of its own
+    assert not (tmp_path / "no.png").exists()
+    assert bikestab("bicycles", "meijaard2007", "--lam", "0.2")[0] == 2
