@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
     from bikestab.errors import BikestabError, InputError, ScanError
     from bikestab.pipeline import Scan, open_volume, scan
-    from bikestab.speeds import KINDS, Intervals
+    from bikestab.speeds import KINDS, REASONS, Intervals
     from bikestab.stability import eigenvalues, growth_rate, modes, stable, stable_intervals
     from bikestab.volume import Volume
 
@@ -18,12 +18,13 @@ _HOME = {  # module → public names
     "bicycle": ("Bicycle",),
     "errors": ("BikestabError", "InputError", "ScanError"),
     "pipeline": ("Scan", "open_volume", "scan"),
-    "speeds": ("KINDS", "Intervals"),
+    "speeds": ("KINDS", "REASONS", "Intervals"),
     "stability": ("eigenvalues", "growth_rate", "modes", "stable", "stable_intervals"),
     "volume": ("Volume",),
 }
 __all__ = [
     "KINDS",
+    "REASONS",
     "Bicycle",
     "BikestabError",
     "InputError",

@@ -43,8 +43,8 @@ def stable_intervals(
     -------
     Intervals
         ``V1``, ``V2`` [m/s] and what happens there, ``lower``, ``upper``, as indices into ``KINDS``; each of
-        shape ``(*shape, interval)``, NaN and ``"none"`` behind a design's last; ``V2`` may be inf. ``number``
-        is how many intervals each design has.
+        shape ``(*shape, interval)``, NaN and ``"none"`` behind a design's last; ``V2`` may be inf. The true
+        ends are within ``V1_error``, ``V2_error`` [m/s] of these. ``number`` counts a design's intervals.
 
     Raises
     ------
