@@ -63,7 +63,8 @@ def zeros_of_quadratic(c0: Twofold, c1: Twofold, c2: Twofold) -> Zeros:
     pair = []
     for a, b, own in ((q, c2, _share(c2)), (c0, q, _share(c0))):
         exists = real & (np.sign(a.value) * np.sign(b.value) > 0)
-        pair.append((exists, _where(exists, a) / _where(exists, b), share + own + ERROR))
+        x = _where(exists, a) / _where(exists, b)
+        pair.append((exists, x, _nearer([c0, c1, c2], x, share + own + ERROR)))
     (s0, sure0), (s1, sure1), (s2, sure2) = signs(c0), signs(c1), signs(c2)
     # with ends of the same sign there are two zeros or none
     apart = (s0 * s2 < 0) | (np.abs(square.value) > error) | (sure1 & (s0 * s2 > 0) & (s1 * s2 >= 0))
@@ -117,8 +118,7 @@ def _polished(c: Polynomial, plain: Floats, start: Floats) -> tuple[Twofold, Flo
         f, slope, slope_error, bend = _values([None if a is None else a.at(todo) for a in c], here, step > 1)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             move = -f / Twofold(slope)
-            far = 1.25 * (np.abs(f.value) + ERROR * f.size) / np.abs(slope)
-        certain = (np.abs(slope) > 16 * (slope_error + far * bend)) & np.isfinite(far)
+        far, certain = _distance(f, slope, slope_error, bend)
         radius[todo], simple[todo] = np.where(certain, far, np.inf), certain
         good = certain & (far <= 2.0**-70 * here.value) & (step > 0)
         # a zero that is as good as its terms allow moves no more
@@ -128,6 +128,27 @@ def _polished(c: Polynomial, plain: Floats, start: Floats) -> tuple[Twofold, Flo
         todo = todo[usable]
         x.value[todo], x.rest[todo] = moved.value[usable], moved.rest[usable]
     return x, radius, simple
+
+
+def _nearer(c: Polynomial, x: Twofold, share: Floats) -> Floats:
+    """The relative error of a zero, or a smaller bound that the value and slope there prove.
+
+    The error of a discriminant's root is that of products of coefficients, the value's that of one.
+    """
+    x = Twofold(x.value, x.rest)
+    f, slope, slope_error, bend = _values(c, x, fine=False)
+    far, certain = _distance(f, slope, slope_error, bend)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(certain, np.fmin(far / np.abs(x.value), share), share)
+
+
+def _distance(
+    f: Twofold, slope: Floats, slope_error: Floats, bend: Floats
+) -> tuple[Floats, NDArray[np.bool_]]:
+    """How far a zero is at most, and where that is certain: there the slope changes by little."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        far = 1.25 * (np.abs(f.value) + ERROR * f.size) / np.abs(slope)
+        return far, (np.abs(slope) > 16 * (slope_error + far * bend)) & np.isfinite(far)
 
 
 def _values(c: Polynomial, x: Twofold, fine: bool) -> tuple[Twofold, Floats, Floats, Floats]:
