@@ -22,6 +22,7 @@ _Indices = NDArray[np.intp]
 _Flags = NDArray[np.bool_]
 _MIDDLE = 1.375  # M, where the axis is cut first: no root of a polynomial that somebody wrote down
 _PLAIN = 2.0**-39  # error of double precision after all cuts, relative to the mean sizes of the terms
+_MANY = 16  # intervals of a cell that are undecided at a time: it is zero to rounding in a whole range
 _DEPTH = 100  # cuts: an eighth of what begins at zero, half of other intervals
 _NARROW = 2.0**-20, 2.0**-49  # relative width at which double, and twice double precision gives up
 
@@ -81,6 +82,7 @@ def _isolated(
         found.append(_bracket_of(work.chosen(one), end[one]))
         open_ = ~clear | (changes > 1)
         undecided[work.cell[open_ & (work.high - work.low <= narrow * work.high)]] = True
+        undecided |= np.bincount(work.cell[open_], minlength=len(cells)) > _MANY
         open_ &= ~undecided[work.cell]
         if not open_.any():
             break
