@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from bikestab.export.endings import file_format
 from bikestab.files import written
@@ -70,6 +70,11 @@ def save_mesh(mesh: Mesh, path: Path, scale: Sequence[float] | Floats, about: Ma
         part.write_bytes(content)
 
 
+def _upper(mesh: Mesh) -> NDArray[np.uint8]:
+    """0 lower end, 1 upper end, 2 wall."""
+    return np.where(mesh.wall, np.uint8(2), mesh.upper.astype(np.uint8))
+
+
 def _vtk(mesh: Mesh, points: Floats, scale: Floats, about: Mapping[str, str], ending: str) -> bytes:
     import pyvista
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
@@ -79,7 +84,7 @@ def _vtk(mesh: Mesh, points: Floats, scale: Floats, about: Mapping[str, str], en
     for name, value in zip(("lam", "sigma", "V", "growth_rate"), values, strict=True):
         surface.point_data[name] = np.ascontiguousarray(value)
     surface.cell_data["kind"] = mesh.kind
-    surface.cell_data["upper"] = mesh.upper.astype(np.uint8)
+    surface.cell_data["upper"] = _upper(mesh)
     surface.field_data["scale"] = scale
     for name, text in about.items():
         surface.field_data[name] = [text]
@@ -108,7 +113,7 @@ def _ply(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:
     face = np.empty(
         len(mesh.triangles), [("n", "u1"), ("i", "<i4", 3), ("kind", "u1"), ("upper", "u1"), *rgb]
     )
-    face["n"], face["i"], face["kind"], face["upper"] = 3, mesh.triangles, mesh.kind, mesh.upper
+    face["n"], face["i"], face["kind"], face["upper"] = 3, mesh.triangles, mesh.kind, _upper(mesh)
     for data, index in ((vertex, kind), (face, mesh.kind)):
         for i, (name, _) in enumerate(rgb):
             data[name] = colour[index, i]

@@ -52,8 +52,7 @@ def draw_all(numbers: Study, sampling: Sampling) -> Iterator[tuple[str, Figure]]
     """Names and figures, one at a time."""
     bicycle = Bicycle.preset(BICYCLE)
     meshes = {
-        model: region_mesh(Family(bicycle, model), LAM, SIGMA, V, cells=sampling.cells, whole=False)
-        for model in MODELS
+        model: region_mesh(Family(bicycle, model), LAM, SIGMA, V, cells=sampling.cells) for model in MODELS
     }
     samples, conclusions = sampling.picture, numbers.conclusions
     yield "machine.png", draw_side(bicycle, *TABLE[0])

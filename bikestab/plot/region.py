@@ -20,7 +20,8 @@ from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, remarks
 from bikestab.plot.lines import legend_below
 from bikestab.region.mesh import Mesh, region_mesh
-from bikestab.speeds import CAPSIZE, WEAVE
+from bikestab.region.triangulation import sides_of
+from bikestab.speeds import CAPSIZE, KINDS, WEAVE
 from bikestab.volume import Volume
 
 # two colours of Okabe and Ito (2008) that differ in greyscale too
@@ -34,7 +35,7 @@ def draw_region(volume: Volume) -> Figure:
     """The boundary surface within the volume's axes, weave and capsize sheets in two colours."""
     box = [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in AXES)]
     family = Family(volume.bicycle, volume.model)
-    mesh = region_mesh(family, box[0], box[1], box[2], cells=_CELLS, whole=False)
+    mesh = region_mesh(family, box[0], box[1], box[2], cells=_CELLS)
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     if handles := draw_mesh(ax, mesh, box):
@@ -53,7 +54,7 @@ def draw_mesh(ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]]) -> lis
     handles: list[Patch | Line2D] = []
     if len(mesh.triangles):
         _surface(ax, mesh, np.array(box))
-        handles = _legend(mesh, _rim(ax, mesh, np.array(box)))
+        handles = _legend(mesh, _rim(ax, mesh))
     else:
         ax.text2D(0.5, 0.5, "no stable motion in this box", transform=ax.transAxes, ha="center")
     ax.set(
@@ -74,29 +75,27 @@ def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
     normal = np.cross(b - a, c - a)
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
     light = 0.55 + 0.45 * np.abs(normal @ _LIGHT)  # both sides are seen
-    colour = np.array([to_rgb(SHEETS[kind][0]) for kind in (WEAVE, CAPSIZE)])[mesh.kind - WEAVE]
-    faces = colour * light[:, np.newaxis]
+    colour = np.full((len(KINDS), 3), 0.5)
+    colour[list(SHEETS)] = [to_rgb(name) for name, _ in SHEETS.values()]
+    faces = colour[mesh.kind] * light[:, np.newaxis]
     ax.add_collection3d(Poly3DCollection(corners, facecolors=faces, edgecolors=faces, linewidths=0.25))
 
 
-def _rim(ax: Axes3D, mesh: Mesh, ends: Floats) -> list[Line2D]:
-    """Where sheets meet, where the surface leaves the box, and where it is open; and what says so."""
-    sides = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
-    edges, index, count = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
-    sheet = np.repeat(mesh.kind * 2 + mesh.upper, 3)
+def _rim(ax: Axes3D, mesh: Mesh) -> list[Line2D]:
+    """Where sheets meet and where the surface leaves the box, and what says so."""
+    edges, which = sides_of(mesh.triangles)
+    sheet = np.repeat(mesh.kind * 4 + mesh.upper + 2 * mesh.wall, 3)
     low, high = np.full(len(edges), 99), np.zeros(len(edges), int)
-    np.minimum.at(low, index.ravel(), sheet)
-    np.maximum.at(high, index.ravel(), sheet)
-    torn = mesh.open_within(ends)
-    faces = {(int(a), int(b)) for a, b in edges[count == 1]} - {(int(a), int(b)) for a, b in torn}
+    np.minimum.at(low, which.ravel(), sheet)
+    np.maximum.at(high, which.ravel(), sheet)
+    once = np.bincount(which.ravel(), minlength=len(edges)) == 1
     handles = []
     for lines, style, label in (
         (edges[low != high], "-", "the sheets meet"),
-        (np.array(sorted(faces)).reshape(-1, 2), (0, (1.5, 1)), "the region goes on beyond the box"),
-        (torn, (0, (5, 1.5, 1, 1.5)), "a vertical wall, or too fine to draw"),
+        (edges[once], (0, (1.5, 1)), "the region goes on beyond the box"),
     ):
         if len(lines):
-            points = mesh.points[lines.astype(int)]
+            points = mesh.points[lines]
             ax.add_collection3d(Line3DCollection(points, colors="0.1", linewidths=0.9, linestyles=[style]))
             handles.append(Line2D([], [], color="0.1", lw=0.9, ls=style, label=label))
     return handles

@@ -5,14 +5,14 @@ import pytest
 from hypothesis import given, settings
 
 from bikestab.bicycle import Bicycle
-from bikestab.errors import ScanError
 from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.curves import trace
 from bikestab.region.events import Box
 from bikestab.region.mesh import region_mesh
-from bikestab.routh import conditions, stable
-from bikestab.speeds import CAPSIZE, WEAVE, intervals_of
+from bikestab.routh import condition, conditions, stable
+from bikestab.speeds import CAPSIZE, WEAVE, critical_speeds, intervals_of
+from tests.meshes import away_from_surface, open_edges
 from tests.strategies import machines
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -81,13 +81,9 @@ def test_eigenvalues_are_where_the_kind_says(case):
 
 def test_no_holes_and_no_ragged_edge(case):
     bicycle, ends, mesh = case
+    assert open_edges(mesh, ends) == 0
     assert len(mesh.open_edges(Box(Family(bicycle), np.array(ends[:2]), ends[2]))) == 0
-    sides = mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    edges, index, count = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
-    assert count.max() == 2
-    way = np.zeros(len(edges))
-    np.add.at(way, index.ravel(), np.where(sides[:, 0] < sides[:, 1], 1, -1))
-    np.testing.assert_array_equal(way[count == 2], 0)  # the neighbours run along a side in opposite ways
+    assert np.all(mesh.wall <= ~mesh.upper)
     for end, axis in zip(np.array(ends).T, (mesh.points.min(axis=0), mesh.points.max(axis=0)), strict=True):
         assert np.all(axis >= np.array(ends)[:, 0])
         assert np.all(axis <= np.array(ends)[:, 1]), end
@@ -119,7 +115,7 @@ def test_sheets_are_the_ends_of_the_intervals(case):
     bicycle, ends, mesh = case
     shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
     for upper in (False, True):
-        index = np.setdiff1d(mesh.triangles[mesh.upper == upper], shared)
+        index = np.setdiff1d(mesh.triangles[(mesh.upper == upper) & ~mesh.wall], shared)
         points = mesh.points[index]
         points = points[np.all((points > np.array(ends)[:, 0]) & (points < np.array(ends)[:, 1]), axis=1)]
         found = intervals_of(characteristic_table(bicycle, points[:, 0], points[:, 1]))
@@ -130,7 +126,7 @@ def test_sheets_are_the_ends_of_the_intervals(case):
 
 def test_the_rim_is_the_skeleton(case):
     bicycle, ends, mesh = case
-    shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
+    shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper & ~mesh.wall])
     rim = mesh.points[shared]
     curves = [
         c for c in trace(Family(bicycle), *ends, samples=321) if c.name in ("fold", "weave meets capsize")
@@ -168,15 +164,31 @@ def test_an_empty_box():
     assert len(mesh.kind) == len(mesh.upper) == len(mesh.decay) == 0
 
 
-def test_a_vertical_wall_is_refused():
-    """Where p0 does not depend on the speed, capsize starts at all speeds at once."""
+def test_a_vertical_wall():
+    """Where p0 does not depend on the speed, capsize starts at all speeds at once, from weave upwards."""
     box = (0.0, 0.3), (0.0, 0.15), (0.0, 10.0)
     skates = Bicycle.preset("kooijman2011")
-    with pytest.raises(ScanError, match="vertical wall"):
-        region_mesh(Family(skates), *box, cells=20)
-    mesh = region_mesh(Family(skates), *box, cells=20, whole=False)
-    assert len(mesh.triangles)
-    assert len(mesh.open_edges(Box(Family(skates), np.array(box[:2]), box[2])))
+    mesh = region_mesh(Family(skates), *box, cells=20)
+    assert open_edges(mesh, box) == 0
+    assert away_from_surface(Family(skates), box, mesh) < 1e-9
+    wall = mesh.triangles[mesh.wall]
+    assert len(wall) > 40
+    assert set(mesh.kind[mesh.wall]) == {CAPSIZE}
+    assert not mesh.upper[mesh.wall].any()
+    lam, sigma, V = mesh.points[np.unique(wall)].T
+    assert V.max() == 10.0
+    weave = critical_speeds(characteristic_table(skates, lam[V < 10], sigma[V < 10]))["hurwitz3"]
+    assert np.nanmin(np.abs(weave / V[V < 10] - 1), axis=0).max() < 1e-9
+    p0 = condition(characteristic_table(skates, lam, sigma), "p0", 5.0)
+    assert np.abs(p0).max() < 1e-13
+    a, b, c = mesh.points[wall].swapaxes(0, 1)
+    outwards = np.cross(b - a, c - a)
+    np.testing.assert_array_equal(outwards[:, 2], 0)
+    middle = mesh.points[wall].mean(axis=1)
+    step = 1e-3 * outwards / np.linalg.norm(outwards, axis=1, keepdims=True)
+    for way, expected in ((1, False), (-1, True)):
+        lam, sigma, V = (middle + way * step).T
+        assert np.all(stable(characteristic_table(skates, lam, sigma), V) == expected)
 
 
 def test_both_kinds_are_there():
@@ -192,15 +204,45 @@ def test_more_cells_make_a_finer_mesh():
     assert 3 < sizes[1] / sizes[0] < 5
 
 
+@pytest.mark.parametrize("delta", [0.0, 1e-9, 1e-3, 1.0, 2.0])
+@pytest.mark.parametrize("name", ["dikarev1981", "kooijman2011", "sharp1971"])
+def test_presets_with_any_damping(name, delta):
+    family, ends = Family(Bicycle.preset(name).with_delta(delta)), ((0.0, 0.3), (0.0, 0.15), (0.0, 15.0))
+    mesh = region_mesh(family, *ends, cells=20)
+    assert open_edges(mesh, ends) == 0
+    assert away_from_surface(family, ends, mesh) < 1e-9
+
+
+FAMILIES = {
+    ("lam", "delta"): (Family(MEIJAARD, x="lam", y="delta"), ((0.1, 0.5), (0.0, 3.0), (0.0, 12.0))),
+    ("mB", "xB"): (Family(MEIJAARD, x="mB", y="xB"), ((10.0, 120.0), (0.0, 0.8), (0.0, 12.0))),
+}
+
+
+@pytest.mark.parametrize("axes", FAMILIES)
+def test_other_planes_of_designs(axes):
+    """As the dense ends of the intervals say, and closed."""
+    family, ends = FAMILIES[axes]
+    mesh = region_mesh(family, *ends, cells=30)
+    assert len(mesh.triangles) > 500
+    assert open_edges(mesh, ends) == 0
+    assert away_from_surface(family, ends, mesh) < 1e-9
+    a, b, c = mesh.points[mesh.triangles].swapaxes(0, 1)
+    area = np.cross(b - a, c - a)[:, 2] / 2  # Gauss: the faces V = 0 and V = 12 add nothing to this
+    volume = np.sum(area * ((a + b + c)[:, 2] / 3 - ends[2][1]))
+    x, y = ((np.arange(200) + 0.5) / 200 * np.ptp(end) + end[0] for end in ends[:2])
+    found = intervals_of(family.table(x[:, np.newaxis], y))
+    width = np.nansum(np.clip(found.V2, *ends[2]) - np.clip(found.V1, *ends[2]), axis=-1)
+    assert volume == pytest.approx(width.mean() * np.prod(np.ptp(ends[:2], axis=1)), rel=2e-3)
+
+
 @settings(max_examples=6, deadline=None)
 @given(machines)
 def test_random_machines(machine):
-    """What cannot be closed is said to be open, never handed out."""
-    bicycle = Bicycle.from_mapping(machine)
+    """No mesh is refused."""
+    family = Family(Bicycle.from_mapping(machine))
     ends = (0.0, 0.6), (0.0, 0.3), (0.5, 20.0)
-    try:
-        mesh = region_mesh(Family(bicycle), *ends, cells=25)
-    except ScanError:
-        return
-    assert len(mesh.open_edges(Box(Family(bicycle), np.array(ends[:2]), ends[2]))) == 0
+    mesh = region_mesh(family, *ends, cells=25)
+    assert open_edges(mesh, ends) == 0
     assert np.isfinite(mesh.points).all()
+    assert away_from_surface(family, ends, mesh) < 1e-9

@@ -1,0 +1,265 @@
+r"""The plane of designs cut into triangles of one structure: as many intervals with the same kinds of ends.
+
+A-----A-----+-----B       A, B: points of structure A or B; +: a point of both, where a side passes from
+\   / \   / \   /        one into the other, found by halving. Triangles get a structure that all of
+A---+---B---B          their corners have.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bikestab.model import Floats
+from bikestab.region.columns import Columns, Ends, ends_at, number_of
+from bikestab.region.events import Box
+from bikestab.region.triangulation import Index, sides_of, split
+
+_BESIDE = 1e-12  # of the box: so close to a point that its column is that at the point
+_SAME = 1e-10  # of the box: points so close are one
+_SMALL = 1e-9  # of the box: triangles and sides that are not cut any more
+_TOUCH = 1e-4  # of the box's speeds: so close, ends over a point on a curve meet there
+_HALVINGS = 48  # of a side, to find where its structure changes: to rounding
+_AT_ONCE = 1024  # designs: fewer take as long
+_ROUNDS = 100, 4  # at most, of cutting sides and triangles, and of parting what touches
+
+
+@dataclass
+class Partition:
+    """Points (2, point) in units of the box, triangles (triangle, 3) of them, each of one structure.
+
+    ``structure`` (triangle,) are numbers in ``columns``: every corner of a triangle has a record of it,
+    unless it is the one without intervals; −1 where it is not known yet.
+    """
+
+    points: Floats
+    triangles: Index
+    structure: Index
+    columns: Columns
+
+    def add(self, points: Floats) -> Index:
+        """The numbers of new points (2, n)."""
+        self.points = np.concatenate([self.points, points], axis=1)
+        self.columns.grow(points.shape[1])
+        return np.arange(self.points.shape[1] - points.shape[1], self.points.shape[1])
+
+    def share(self, sides: Index) -> NDArray[np.bool_]:
+        """Whether all points of each side or triangle (n, corner) have a structure in common."""
+        return np.logical_and.reduce(self.columns.has()[sides], axis=1).any(axis=1)
+
+    def length(self, sides: Index) -> Floats:
+        """Of sides (n, 2), in units of the box."""
+        return np.hypot(*(self.points[:, sides[:, 1]] - self.points[:, sides[:, 0]]))
+
+    def area(self, triangles: Index) -> Floats:
+        """Of triangles (n, 3), in units of the box."""
+        a, b, c = self.points[:, triangles.T].swapaxes(0, 1)
+        return 0.5 * ((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0])
+
+
+def partitioned(box: Box, points: Floats, triangles: Index, traced: int) -> Partition:
+    """The plane cut where structures change; the first ``traced`` points are on curves where they do."""
+    columns = Columns(points.shape[1])
+    plane = Partition(points, triangles, np.full(len(triangles), -1), columns)
+    own = np.arange(traced, points.shape[1])
+    columns.add(own, ends_at(box, points[:, own]), points[:, own])
+    sides = sides_of(triangles)[0]
+    for start, goal in (sides.T, sides.T[::-1]):
+        on = start < traced
+        _look(box, plane, start[on], goal[on])
+    for _ in range(_ROUNDS[1]):
+        _settle(box, plane)
+        if not _part(box, plane):
+            return plane
+    _settle(box, plane)
+    return plane
+
+
+def _settle(box: Box, plane: Partition) -> None:
+    """Give all triangles a structure, cutting those that pass from one into another."""
+    for number in range(_ROUNDS[0] + 1):
+        rest = np.flatnonzero(plane.structure < 0)
+        structure, good = _structures(box, plane, plane.triangles[rest])
+        plane.structure[rest[good]] = structure[good]
+        rest = rest[~good]
+        if not len(rest):
+            return
+        triangles = plane.triangles[rest]
+        sides, which = sides_of(triangles)
+        length = plane.length(sides)
+        open_ = (length > _SMALL) & ~plane.share(sides)
+        if open_.any() and number < _ROUNDS[0]:
+            _cut(plane, sides[open_], _crossings(box, plane, sides[open_]))
+            continue
+        long = length[which].max(axis=1)
+        wide = (plane.area(triangles) > _SMALL * long) & (number < _ROUNDS[0])
+        for i in np.flatnonzero(~wide):
+            plane.structure[rest[i]] = _borrowed(box, plane, triangles[i])
+        _cut_inside(box, plane, rest[wide])
+
+
+def _cut_inside(box: Box, plane: Partition, chosen: Index) -> None:
+    """Cut triangles (n,) into three at a point in their middle."""
+    triangles = plane.triangles[chosen]
+    m = _middles(box, plane, triangles)
+    a, b, c = triangles.T
+    plane.triangles[chosen] = np.array([a, b, m]).T
+    plane.triangles = np.concatenate([plane.triangles, *(np.array(p).T for p in ((b, c, m), (c, a, m)))])
+    plane.structure = np.append(plane.structure, np.full(2 * len(m), -1))
+
+
+def _middles(box: Box, plane: Partition, sides: Index) -> Index:
+    """New points in the middle of sides or triangles (n, corner)."""
+    points = plane.points[:, sides].mean(axis=2)
+    m = plane.add(points)
+    plane.columns.add(m, ends_at(box, points), points)
+    return m
+
+
+def _cut(plane: Partition, sides: Index, number: Index) -> None:
+    """Cut all triangles that have sides (n, 2) at the points ``number`` (n,) in these, −1 = none."""
+    n = plane.points.shape[1]
+    sides, number = np.sort(sides[number >= 0], axis=1), number[number >= 0]
+    if not len(sides):
+        return
+    order = np.lexsort(sides.T[::-1])
+    key, number = (sides[:, 0] * n + sides[:, 1])[order], number[order]
+    after = np.roll(plane.triangles, -1, axis=1)
+    keys = np.minimum(plane.triangles, after) * n + np.maximum(plane.triangles, after)
+    at = np.minimum(np.searchsorted(key, keys), len(key) - 1)
+    cut = np.where(key[at] == keys, number[at], -1)
+    old = np.flatnonzero((cut >= 0).any(axis=1))
+    new, parent = split(plane.triangles[old], cut[old])
+    structure = plane.structure[old][parent]
+    structure[~plane.columns.has()[new, structure[:, np.newaxis]].all(axis=1)] = -1
+    plane.triangles = np.concatenate([np.delete(plane.triangles, old, axis=0), new])
+    plane.structure = np.append(np.delete(plane.structure, old), structure)
+
+
+def _look(box: Box, plane: Partition, start: Index, goal: Index, far: float = _BESIDE) -> Ends:
+    """Note the structures of the points ``start`` just beside them, ``far`` towards the points ``goal``."""
+    way = plane.points[:, goal] - plane.points[:, start]
+    places = plane.points[:, start] + way * (far / np.hypot(*way))
+    ends = ends_at(box, places)
+    plane.columns.add(start, ends, places)
+    return ends
+
+
+def _crossings(box: Box, plane: Partition, sides: Index) -> Index:
+    """New points where the structure changes on sides whose ends have none in common; −1 = none is needed.
+
+    A side may need more than one, then the rest follows in the next round.
+    """
+    number = np.full(len(sides), -1)
+    open_ = np.arange(len(sides))
+    for far in (_BESIDE, _SAME):
+        here = _look(box, plane, sides[open_, 0], sides[open_, 1], far)
+        _look(box, plane, sides[open_, 1], sides[open_, 0], far)
+        still = ~plane.share(sides[open_])
+        open_, code = open_[still], here.code[still]
+    start, goal = plane.points[:, sides[open_].T].swapaxes(0, 1)
+    way = goal - start
+    length = np.hypot(*way)
+    before, behind = _change(box, code, start, way, _SAME / length)
+    number[open_] = m = plane.add(start + behind * way)
+    for where in (before, np.minimum(behind + _BESIDE / length, 1 - _SAME / length)):
+        places = start + where * way
+        plane.columns.add(m, ends_at(box, places), places)
+    return number
+
+
+def _change(box: Box, code: Index, start: Floats, way: Floats, t: Floats) -> tuple[Floats, Floats]:
+    """Before and behind the first change of a structure (n,), from start + t way to start + (1 − t) way."""
+    n = len(code)
+    low, high = t, 1 - t
+    cuts = int(np.clip(_AT_ONCE // max(n, 1), 2, 256))
+    part = np.arange(1, cuts)[:, np.newaxis] / cuts
+    for _ in range(int(np.ceil(_HALVINGS / np.log2(cuts)))):
+        inner = low + part * (high - low)
+        found = ends_at(box, (start[:, np.newaxis] + inner * way[:, np.newaxis]).reshape(2, -1)).code
+        same = np.vstack([found.reshape(cuts - 1, n) == code, np.zeros((1, n), bool)])
+        first = np.argmin(same, axis=0)
+        every = np.vstack([low, inner, high])
+        low, high = every[first, np.arange(n)], every[first + 1, np.arange(n)]
+    return low, high
+
+
+def _structures(box: Box, plane: Partition, triangles: Index) -> tuple[Index, NDArray[np.bool_]]:
+    """The structure of each triangle, and whether that will do.
+
+    Where the corners have several in common, it is that of the middle.
+    """
+    columns = plane.columns
+    common = np.logical_and.reduce(columns.has()[triangles], axis=1)
+    number = np.count_nonzero(common, axis=1)
+    structure = np.argmax(common, axis=1)
+    good = number == 1
+    several = np.flatnonzero(number > 1)
+    middle = ends_at(box, plane.points[:, triangles[several]].mean(axis=2))
+    fits = common[several] & (columns.codes[: common.shape[1]] == middle.code[:, np.newaxis])
+    good[several] = fits.any(axis=1)
+    structure[several[good[several]]] = np.argmax(fits, axis=1)[good[several]]
+    return structure, good
+
+
+def _borrowed(box: Box, plane: Partition, triangle: Index) -> int:
+    """The structure of a triangle too narrow to be cut: of some corners, where the others have such ends too.
+
+    Of those that do, the one with most intervals; else the one without any.
+    """
+    columns = plane.columns
+    has = columns.has()[triangle]
+    candidates = np.flatnonzero(has.any(axis=0))
+    for structure in candidates[np.argsort(-number_of(columns.codes[candidates]), kind="stable")]:
+        lenders, others = np.flatnonzero(has[:, structure]), np.flatnonzero(~has[:, structure])
+        found = []
+        for corner in others:
+            away = plane.length(np.column_stack([triangle[lenders], np.full(len(lenders), triangle[corner])]))
+            record = columns.record[triangle[lenders[np.argmin(away)]], structure]
+            found.append(columns.alike(triangle[corner], record, structure, 0.02 * (box.V[1] - box.V[0])))
+        V = np.array(found).reshape(len(others), 2, columns.V.shape[2]).swapaxes(0, 1)
+        if np.isfinite(V).all():
+            code = np.full(len(others), columns.codes[structure])
+            columns.add(triangle[others], Ends(V, code), plane.points[:, triangle[others]])
+            return int(structure)
+    return int(columns.structure(np.zeros(1, np.int64))[0])
+
+
+def _part(box: Box, plane: Partition) -> bool:
+    r"""Put a point between two on curves, where the ends of an interval would else touch across triangles.
+
+    Returns whether some of these points have another structure than the triangles.
+
+        +-------+           +-------+      + V1 = V2: without the point o an interval would be
+       / \  A  / \   ->    / \ .o. / \       closed all along the side
+      +---\---+---+       +---+---+---+
+    """
+    columns = plane.columns
+    sides, which = sides_of(plane.triangles)
+    several = np.count_nonzero(columns.has(), axis=1) > 1
+    order = np.argsort(which.ravel(), kind="stable")
+    count = np.bincount(which.ravel(), minlength=len(sides))
+    first = np.cumsum(count) - count
+    inside = np.flatnonzero((count == 2) & several[sides].all(axis=1) & (plane.length(sides) > _SMALL))
+    beside = plane.structure[order[first[inside, np.newaxis] + [0, 1]] // 3]
+    chosen = (beside[:, 0] == beside[:, 1]) & (number_of(columns.codes[beside[:, 0]]) > 0)
+    inside, structure = inside[chosen], beside[chosen, 0]
+    touching = _touching(box, columns, sides[inside], structure)
+    inside, structure = inside[touching], structure[touching]
+    m = _middles(box, plane, sides[inside])
+    _cut(plane, sides[inside], m)
+    return bool((columns.record[m, structure] < 0).any())
+
+
+def _touching(box: Box, columns: Columns, sides: Index, structure: Index) -> NDArray[np.bool_]:
+    """Whether two successive ends of intervals meet at both ends of a side."""
+    records = columns.record[sides, structure[:, np.newaxis]]
+    ends = (
+        columns.V[:, records].transpose(1, 2, 3, 0).reshape(len(sides), 2, 2 * columns.V.shape[2])
+    )  # ascending, then zeros
+    gaps = np.diff(ends, axis=2)
+    exist = np.arange(1, ends.shape[2]) < 2 * number_of(columns.codes[structure])[:, np.newaxis]
+    touch = np.logical_and.reduce(gaps < _TOUCH * (box.V[1] - box.V[0]), axis=1) & exist
+    return np.logical_or.reduce(touch, axis=1)
