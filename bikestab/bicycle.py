@@ -64,7 +64,7 @@ class Bicycle:
     source: str = ""
     remarks: tuple[str, ...] = ()  # warnings about the bodies these parameters were reduced from
     bodies: Mapping[str, float] | None = field(default=None, init=False, repr=False, compare=False)
-    shape: ClassVar[tuple[int, ...]] = ()  # of each parameter, as in samples.Machines
+    shape: ClassVar[tuple[int, ...]] = ()  # of each parameter, as in machines.Machines
 
     def __post_init__(self) -> None:
         for p in parameters():

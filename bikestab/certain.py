@@ -1,7 +1,7 @@
 """Positive zeros of many small polynomials in twice double precision, each with a bound on its error.
 
 A polynomial is a list of coefficients of V^0, V^1, …, each a ``Twofold`` of shape (cell,) whose error is at
-most ERROR times its size, or None where it is zero in all cells.
+most COEFFICIENT times its size, or None where it is zero in all cells.
 """
 
 from __future__ import annotations
@@ -15,10 +15,8 @@ from bikestab.isolation import brackets
 from bikestab.model import Floats
 from bikestab.polynomials import Polynomial
 from bikestab.roots import bracketed_root
+from bikestab.rounding import COEFFICIENT, SLOPE
 from bikestab.twofold import Twofold
-
-ERROR = 2.0**-92  # of a coefficient, relative to the sum of its terms' sizes: a product of three entries of
-# the table, each right to model.ROUNDING, and some operations
 
 
 class Zeros(NamedTuple):
@@ -39,7 +37,7 @@ class Zeros(NamedTuple):
 
 def signs(a: Twofold) -> tuple[Floats, NDArray[np.bool_]]:
     """The signs of numbers, and whether they are certain; zero is where there are no terms."""
-    return np.sign(a.value), (np.abs(a.value) > ERROR * a.size) | (a.size == 0)
+    return np.sign(a.value), (np.abs(a.value) > COEFFICIENT * a.size) | (a.size == 0)
 
 
 def zero_of_linear(a: Twofold, b: Twofold) -> Zeros:
@@ -47,24 +45,24 @@ def zero_of_linear(a: Twofold, b: Twofold) -> Zeros:
     (sign_a, sure_a), (sign_b, sure_b) = signs(a), signs(b)
     exists = sign_a * sign_b < 0
     x = -_where(exists, a) / _where(exists, b)
-    return _ascending([(exists, x, _share(a) + _share(b) + ERROR)], sure_a & sure_b)
+    return _ascending([(exists, x, _share(a) + _share(b) + COEFFICIENT)], sure_a & sure_b)
 
 
 def zeros_of_quadratic(c0: Twofold, c1: Twofold, c2: Twofold) -> Zeros:
     """Of c0 + c1 x + c2 x², without subtracting nearly equal numbers."""
     square = c1 * c1 - (c0 * c2).times(4.0)
-    error = 4 * ERROR * square.size  # of the square
+    error = 4 * COEFFICIENT * square.size  # of the square
     real = square.value > 0
     root = _where(real, square).square_root()
     sign = np.where(c1.value < 0, -1.0, 1.0)
     q = (c1 + root * sign).times(-0.5)
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = (ERROR * c1.size + error / root.value) / np.abs(q.value)
+        share = (COEFFICIENT * c1.size + error / root.value) / np.abs(q.value)
     pair = []
     for a, b, own in ((q, c2, _share(c2)), (c0, q, _share(c0))):
         exists = real & (np.sign(a.value) * np.sign(b.value) > 0)
         x = _where(exists, a) / _where(exists, b)
-        pair.append((exists, x, _nearer([c0, c1, c2], x, share + own + ERROR)))
+        pair.append((exists, x, _nearer([c0, c1, c2], x, share + own + COEFFICIENT)))
     (s0, sure0), (s1, sure1), (s2, sure2) = signs(c0), signs(c1), signs(c2)
     # with ends of the same sign there are two zeros or none
     apart = (s0 * s2 < 0) | (np.abs(square.value) > error) | (sure1 & (s0 * s2 > 0) & (s1 * s2 >= 0))
@@ -77,7 +75,7 @@ def square_roots(zeros: Zeros) -> Zeros:
     exists = np.isfinite(zeros.V)
     x = np.where(exists, zeros.V, 1.0)
     V = Twofold(x, np.where(exists, zeros.rest, 0.0)).square_root()
-    radius = zeros.radius / x * V.value + ERROR * V.value
+    radius = zeros.radius / x * V.value + COEFFICIENT * V.value
     V_, rest, radius = (np.where(exists, each, np.nan) for each in (V.value, V.rest, radius))
     return Zeros(V_, rest, radius, zeros.sure)
 
@@ -88,7 +86,7 @@ def zeros_of(polynomial: Polynomial, number: int) -> Zeros:
     Between two doubles that are neighbours at most one zero is found; then, and where a sign is not certain,
     the cell is not ``sure``.
     """
-    (cell, low, high, sign), sure = brackets(polynomial, number, ERROR)
+    (cell, low, high, sign), sure = brackets(polynomial, number, COEFFICIENT)
     c = [None if a is None else a.at(cell) for a in polynomial]
     plain = np.array([np.zeros(len(cell)) if a is None else a.value for a in c])
     start = bracketed_root(plain, low, high, sign)
@@ -122,7 +120,7 @@ def _polished(c: Polynomial, plain: Floats, start: Floats) -> tuple[Twofold, Flo
         radius[todo], simple[todo] = np.where(certain, far, np.inf), certain
         good = certain & (far <= 2.0**-70 * here.value) & (step > 0)
         # a zero that is as good as its terms allow moves no more
-        good |= certain & (np.abs(f.value) <= 8 * ERROR * f.size)
+        good |= certain & (np.abs(f.value) <= 8 * COEFFICIENT * f.size)
         moved = here + move
         usable = ~good & np.isfinite(moved.value) & (moved.value > 0)
         todo = todo[usable]
@@ -147,7 +145,7 @@ def _distance(
 ) -> tuple[Floats, NDArray[np.bool_]]:
     """How far a zero is at most, and where that is certain: there the slope changes by little."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        far = 1.25 * (np.abs(f.value) + ERROR * f.size) / np.abs(slope)
+        far = 1.25 * (np.abs(f.value) + COEFFICIENT * f.size) / np.abs(slope)
         return far, (np.abs(slope) > 16 * (slope_error + far * bend)) & np.isfinite(far)
 
 
@@ -164,8 +162,8 @@ def _values(c: Polynomial, x: Twofold, fine: bool) -> tuple[Twofold, Floats, Flo
         size = size * x.value + f.size
         f = f * x if a is None else f * x + a
     if fine:
-        return f, slope.value, 2 * ERROR * slope.size, 2 * bend
-    return f, plain, 2.0**-48 * size, 2 * bend
+        return f, slope.value, 2 * COEFFICIENT * slope.size, 2 * bend
+    return f, plain, SLOPE * size, 2 * bend
 
 
 def _where(chosen: NDArray[np.bool_], a: Twofold) -> Twofold:
@@ -176,7 +174,7 @@ def _where(chosen: NDArray[np.bool_], a: Twofold) -> Twofold:
 def _share(a: Twofold) -> Floats:
     """A bound on the relative error."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        return 2 * ERROR * a.size / np.abs(a.value)
+        return 2 * COEFFICIENT * a.size / np.abs(a.value)
 
 
 def _ascending(found: list[tuple[NDArray[np.bool_], Twofold, Floats]], sure: NDArray[np.bool_]) -> Zeros:

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.certain import Zeros, square_roots, zero_of_linear, zeros_of, zeros_of_quadratic
-from bikestab.model import ROUNDING, ExactTable, Floats
+from bikestab.model import ExactTable, Floats
 from bikestab.polynomials import Polynomial
+from bikestab.rounding import ENTRY
 from bikestab.routh import CONDITIONS, Rows, hurwitz3_of
 from bikestab.twofold import Twofold
 
@@ -66,7 +67,7 @@ def as_exact(table: Floats | ExactTable) -> ExactTable:
     """A table of doubles as what it is: exactly these."""
     if isinstance(table, ExactTable):
         return table
-    return ExactTable(table, np.zeros_like(table), np.abs(table) * ROUNDING)
+    return ExactTable(table, np.zeros_like(table), np.abs(table) * ENTRY)
 
 
 def _critical_of(table: ExactTable, names: Sequence[str]) -> dict[str, tuple[Zeros, Floats]]:
@@ -107,9 +108,7 @@ def _scaled(table: ExactTable) -> tuple[Rows, Floats]:
         for j in range(4):
             unit = np.ldexp(1.0, time * (i - 4) + speed * j - p4)
             row.append(
-                Twofold(
-                    table.value[i, j] * unit, table.rest[i, j] * unit, table.error[i, j] * unit / ROUNDING
-                )
+                Twofold(table.value[i, j] * unit, table.rest[i, j] * unit, table.error[i, j] * unit / ENTRY)
             )
         rows.append(row)
     return rows, np.ldexp(1.0, speed)

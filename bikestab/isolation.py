@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
+from bikestab.rounding import CUT
 from bikestab.twofold import Twofold
 
 _Indices = NDArray[np.intp]
 _Flags = NDArray[np.bool_]
 _MIDDLE = 1.375  # M, where the axis is cut first: no root of a polynomial that somebody wrote down
-_PLAIN = 2.0**-39  # error of double precision after all cuts, relative to the mean sizes of the terms
 _MANY = 16  # intervals of a cell that are undecided at a time: it is zero to rounding in a whole range
 _DEPTH = 100  # cuts: an eighth of what begins at zero, half of other intervals
 _NARROW = 2.0**-20, 2.0**-49  # relative width at which double, and twice double precision gives up
@@ -72,8 +72,8 @@ def _isolated(
     coefficients: Sequence[Twofold | None], cells: _Indices, error: float, *, plain: bool
 ) -> tuple[Brackets, _Flags]:
     """The intervals, and which cells are undecided."""
-    share, narrow = (_PLAIN, _NARROW[0]) if plain else (16 * error, _NARROW[1])
-    work = _halves(coefficients, cells, error / _PLAIN if plain else None)
+    share, narrow = (CUT, _NARROW[0]) if plain else (16 * error, _NARROW[1])
+    work = _halves(coefficients, cells, error / CUT if plain else None)
     undecided = np.zeros(len(cells), bool)
     found = []
     for _ in range(_DEPTH):

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.notation import reduced
+from bikestab.rounding import ENTRY
 from bikestab.twofold import Twofold, sine_cosine
 
 if TYPE_CHECKING:
@@ -23,10 +24,6 @@ if TYPE_CHECKING:
 Floats: TypeAlias = NDArray[np.float64]
 Model = Literal["refined", "unrefined"]
 MODELS: tuple[Model, ...] = ("refined", "unrefined")
-
-# The error of an entry of the table, as a share of the summed sizes of its terms: up to 40 operations of 8 u²
-# each lie between the parameters and the entry, four times as many where 25 parameters are reduced first.
-ROUNDING = 2.0**-95
 
 
 class Coefficients(NamedTuple):
@@ -84,7 +81,7 @@ def exact_table(
     table = np.zeros((3, 5, 4, *np.broadcast_shapes(np.shape(lam), np.shape(sigma), bicycle.shape)))
     for index, entry in _entries(_letters(bicycle, lam, sigma, model)).items():
         table[0, *index], table[1, *index] = entry.value, entry.rest
-        table[2, *index] = ROUNDING * entry.size
+        table[2, *index] = ENTRY * entry.size
     return ExactTable(*table)
 
 

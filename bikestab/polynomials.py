@@ -11,14 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
+from bikestab.rounding import PRODUCTS
 from bikestab.twofold import Twofold
 
 Polynomial = list[Twofold | None]  # coefficients of V^0, V^1, …; None where it is zero in all cells
-
-EPS = float(np.finfo(float).eps)
-# A sum of products of table entries, such as a coefficient of hurwitz3, that is no more than this share of
-# its terms' size is nothing but their rounding.
-PRODUCTS = 64 * EPS
 
 
 def value(c: Floats, x: Floats) -> Floats:

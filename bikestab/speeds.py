@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from bikestab.critical import Critical, as_exact, critical
 from bikestab.model import ExactTable, Floats
+from bikestab.rounding import VALUE
 from bikestab.routh import coefficients_at
 
 KINDS = ("none", "weave", "capsize", "rest", "unbounded")  # value k of ``lower`` and ``upper``
@@ -175,7 +176,7 @@ def _others_positive(table: ExactTable, V: Floats) -> tuple[NDArray[np.bool_], N
     sizes = coefficients_at(np.abs(table.value), V)
     uncertain = coefficients_at(table.error, V)
     clear = [
-        np.abs(p) > 2.0**-50 * size + error
+        np.abs(p) > VALUE * size + error
         for p, size, error in zip((p0, p1, p2, p3, p4), sizes, uncertain, strict=True)
     ]
     zero = [size + error == 0 for size, error in zip(sizes, uncertain, strict=True)]

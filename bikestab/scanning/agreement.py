@@ -8,12 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from bikestab.model import Floats
-from bikestab.polynomials import EPS, taylor
+from bikestab.polynomials import taylor
+from bikestab.rounding import CONDITION, NO_SIGN
 from bikestab.routh import condition_polynomials, conditions
 
 AGREEMENT = 1e-10  # m/s, between the exact speeds and any other way
-_ROUNDING = 16 * EPS  # of a condition, relative to the sum of its terms' sizes
-ZERO = 128 * EPS  # below it a condition is no number: ``routh`` drops what is below half
 
 
 class Agreement(NamedTuple):
@@ -49,7 +48,7 @@ def by_rounding(table: Floats, name: str, V: Floats) -> tuple[Floats, Floats]:
     """
     size, series = size_of_terms(table, name, V), taylor(condition_polynomials(table)[name], V)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return _ROUNDING * size / np.abs(series[1]), _reach(series, ZERO * size)
+        return CONDITION * size / np.abs(series[1]), _reach(series, NO_SIGN * size)
 
 
 def size_of_terms(table: Floats, name: str, V: Floats) -> Floats:

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from bikestab.errors import ScanError
 from bikestab.model import Floats, characteristic_table
+from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, condition, conditions
-from bikestab.scanning.agreement import AGREEMENT, ZERO, Agreement, by_rounding, size_of_terms
+from bikestab.scanning.agreement import AGREEMENT, Agreement, by_rounding, size_of_terms
 from bikestab.scanning.linking import widened
 from bikestab.scanning.sheets import Roots
 from bikestab.scanning.tile import Tile
@@ -108,7 +109,7 @@ def _compared(name: str, brackets: Brackets) -> Agreement:
     table, below, above, exact = brackets
     clear = np.ones(len(below), bool)
     for V in (below, above):
-        clear &= np.abs(condition(table, name, V)) > ZERO * size_of_terms(table, name, V)
+        clear &= np.abs(condition(table, name, V)) > NO_SIGN * size_of_terms(table, name, V)
     table, below, above, exact = table[..., clear], below[clear], above[clear], exact[clear]
     zero = zeros(name, table, below, above)
     far = np.abs(exact - zero[:, np.newaxis])

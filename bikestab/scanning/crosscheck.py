@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from bikestab.critical import Critical
 from bikestab.model import Floats
+from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, condition, conditions, violated
-from bikestab.scanning.agreement import AGREEMENT, ZERO, Agreement, by_rounding, size_of_terms
+from bikestab.scanning.agreement import AGREEMENT, Agreement, by_rounding, size_of_terms
 
 SAMPLE = 8  # speeds of the grid at which the signs are compared
 _FAR = 1e-3  # m/s; a difference above is called infinite
@@ -71,7 +72,7 @@ def _poor(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:
         difference[zero] = step[zero]
     value = condition(table, name, root)
     loose = ~sharp & np.isfinite(difference)
-    touching = ~sharp & ~loose & (np.abs(value) <= ZERO * size_of_terms(table, name, root))
+    touching = ~sharp & ~loose & (np.abs(value) <= NO_SIGN * size_of_terms(table, name, root))
     return Agreement(
         0,
         float(difference[~(loose | touching)].max(initial=0)),
@@ -92,7 +93,7 @@ def _signs(table: Floats, mask: NDArray[np.uint8], V: Floats) -> Agreement:
     other = violated(values) ^ mask
     wrong, touching = 0, 0
     for bit, name in enumerate(CONDITIONS):
-        zero = np.abs(getattr(values, name)) <= ZERO * size_of_terms(table, name, V)
+        zero = np.abs(getattr(values, name)) <= NO_SIGN * size_of_terms(table, name, V)
         differs = (other >> bit) & 1 == 1
         wrong += int(np.count_nonzero(differs & ~zero))
         touching += int(np.count_nonzero(differs & zero))
