@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.errors import InputError
-from bikestab.model import Floats
+from bikestab.model import ExactTable, Floats
 from bikestab.modenames import names_of, rows_of
 from bikestab.spectrum import eigenvalues_of
 from bikestab.stretches import course, in_slots
@@ -36,23 +36,22 @@ class Modes(NamedTuple):
     above: tuple[tuple[str, ...], ...]
 
 
-def follow(table: Floats, V: ArrayLike) -> Modes:
+def follow(table: Floats | ExactTable, V: ArrayLike) -> Modes:
     """The eigenvalues of one table (5, 4) at speeds V ≥ 0 [m/s], shape (n,), in any order.
 
     Equal to ``spectrum.eigenvalues_of`` up to their order. Raises InputError for a negative speed and
     where p4 = 0, since an eigenvalue is then infinite.
     """
-    table = np.asarray(table, dtype=float)
     V = np.atleast_1d(np.asarray(V, dtype=float))
     if np.any(V < 0) or not np.all(np.isfinite(V)):
         raise InputError("a speed is negative or not finite", key=("V",), hint="allowed: 0 and above")
-    if table[4, 0] == 0:
+    if (table.value if isinstance(table, ExactTable) else table)[4, 0] == 0:
         raise InputError("the mass matrix is singular: p4 = 0, and an eigenvalue is infinite")
     events, stretches, meeting = along = course(table)
     rows = rows_of(table, along)
     of_stretch = names_of(table, along, rows)
 
-    values = eigenvalues_of(table[..., np.newaxis], V)
+    values = eigenvalues_of(table, V)
     where = np.searchsorted(events, V)
     eigenvalues, names = np.empty_like(values), np.empty(values.shape, dtype="<U9")
     for i, stretch in enumerate(stretches):

@@ -21,9 +21,14 @@ FASTEST = (
 Integers: TypeAlias = NDArray[np.object_]  # a polynomial in V: Python's integers, of V^0, V^1, …
 
 
-def integers(table: Floats) -> Integers:
-    """A table times a power of two that makes whole numbers of it."""
-    exact = np.array([[Fraction(float(x)) for x in row] for row in table])
+def integers(*parts: Floats) -> Integers:
+    """The sum of tables, times a power of two that makes whole numbers of it."""
+    exact = np.array(
+        [
+            [sum(map(Fraction, entry)) for entry in zip(*rows, strict=True)]
+            for rows in zip(*(x.tolist() for x in parts), strict=True)
+        ]
+    )
     common = max(x.denominator for x in exact.flat)
     return np.array([[int(x * common) for x in row] for row in exact], dtype=object)
 

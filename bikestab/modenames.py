@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bikestab.model import Floats
+from bikestab.model import ExactTable, Floats
 from bikestab.spectrum import eigenvalues_of
 from bikestab.speeds import KINDS, intervals_of
 from bikestab.stretches import Course, Stretch, in_slots
@@ -38,7 +38,7 @@ class _Crossing(NamedTuple):
     branches: tuple[int, ...]
 
 
-def names_of(table: Floats, course: Course, rows: list[int]) -> list[list[str]]:
+def names_of(table: Floats | ExactTable, course: Course, rows: list[int]) -> list[list[str]]:
     """The names of the rows on each stretch; each is one of NAMES."""
     own = [dict(zip(rows, _names(stretch, rows), strict=True)) for stretch in course.stretches]
     made: list[dict[int, str]] = [{} for _ in own]  # on each stretch the branches that make an edge somewhere
@@ -55,7 +55,7 @@ def names_of(table: Floats, course: Course, rows: list[int]) -> list[list[str]]:
     return [_merged(edge, rest, rows) for edge, rest in zip(made, own, strict=True)]
 
 
-def rows_of(table: Floats, course: Course) -> list[int]:
+def rows_of(table: Floats | ExactTable, course: Course) -> list[int]:
     """The branches of weave, capsize and castering, from the highest speeds with exactly one pair."""
     events, stretches = course.events, course.stretches
     last = len(stretches) - 1
@@ -92,7 +92,7 @@ def _merged(edge: dict[int, str], rest: dict[int, str], rows: list[int]) -> list
     return [names[b] for b in rows]
 
 
-def _crossings(table: Floats, course: Course) -> list[_Crossing]:
+def _crossings(table: Floats | ExactTable, course: Course) -> list[_Crossing]:
     """What crosses the axis at each end of the stable speeds."""
     intervals = intervals_of(table)
     ends = {
@@ -104,7 +104,7 @@ def _crossings(table: Floats, course: Course) -> list[_Crossing]:
     return [crossing for crossing in found if crossing]
 
 
-def _crossing(table: Floats, course: Course, V: float, kind: str) -> _Crossing | None:
+def _crossing(table: Floats | ExactTable, course: Course, V: float, kind: str) -> _Crossing | None:
     """The pair or the real eigenvalue that crosses at an end; None where rounding hides it."""
     at = int(np.searchsorted(course.events, V))
     near = sorted(range(max(at - 1, 0), min(at + 2, len(course.stretches))), key=lambda i: abs(i - at))
@@ -133,6 +133,6 @@ def _lifetime(course: Course, crossing: _Crossing) -> range:
     return range(first, last + 1)
 
 
-def _in_slots_at(table: Floats, stretch: Stretch, V: float) -> np.ndarray:
+def _in_slots_at(table: Floats | ExactTable, stretch: Stretch, V: float) -> np.ndarray:
     """The eigenvalues at a speed in the slots of a stretch."""
-    return in_slots(eigenvalues_of(table[..., np.newaxis], np.array([V])), stretch.real, stretch.tilt)[:, 0]
+    return in_slots(eigenvalues_of(table, np.array([V])), stretch.real, stretch.tilt)[:, 0]

@@ -13,16 +13,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.coalescing import coalescing_quadratics
-from bikestab.model import Floats
+from bikestab.model import ExactTable, Floats
 from bikestab.quartic import Factors, Quadratic, polished, quadratic, settled, split
 from bikestab.routh import coefficients_at
 
 
-def growth_rate_of(table: Floats, V: ArrayLike) -> Floats:
+def growth_rate_of(table: Floats | ExactTable, V: ArrayLike) -> Floats:
     """The largest real part of the eigenvalues [s⁻¹] at the speeds V [m/s].
 
     ``table`` has shape (5, 4, *shape) and V broadcasts against ``shape``. inf where p4 = 0, since
-    an eigenvalue is then infinite.
+    an eigenvalue is then infinite. Where two eigenvalues meet, a table's rounding to doubles moves them by
+    1e-8 of their size; that of an ExactTable does not.
     """
     one, other = quadratics(table, V)
     with np.errstate(all="ignore"):
@@ -30,18 +31,19 @@ def growth_rate_of(table: Floats, V: ArrayLike) -> Floats:
     return np.where(np.isnan(growth), np.inf, growth)
 
 
-def eigenvalues_of(table: Floats, V: ArrayLike) -> NDArray[np.complex128]:
+def eigenvalues_of(table: Floats | ExactTable, V: ArrayLike) -> NDArray[np.complex128]:
     """The four eigenvalues [s⁻¹] at the speeds V [m/s], in no particular order; shape (4, *shape)."""
     one, other = quadratics(table, V)
     with np.errstate(all="ignore"):
         return np.array([*_roots(one), *_roots(other)])
 
 
-def quadratics(table: Floats, V: ArrayLike) -> tuple[Quadratic, Quadratic]:
+def quadratics(table: Floats | ExactTable, V: ArrayLike) -> tuple[Quadratic, Quadratic]:
     """Two real quadratics whose product is the characteristic polynomial divided by p4.
 
     NaN where p4 = 0.
     """
+    table, rest = (table.value, table.rest) if isinstance(table, ExactTable) else (table, None)
     with np.errstate(all="ignore"):
         np.setbufsize(16)  # numpy else copies a broadcast array into its buffer for every operation
         p0, p1, p2, p3, _ = coefficients_at(table / table[4, 0], V)  # p4 has no power of V
@@ -59,11 +61,16 @@ def quadratics(table: Floats, V: ArrayLike) -> tuple[Quadratic, Quadratic]:
         good &= apart
     if not np.all(good):
         poor = ~good
-        padded = table.reshape(5, 4, *(1,) * (good.ndim - table.ndim + 2), *table.shape[2:])
-        cells = np.broadcast_to(padded, (5, 4, *good.shape))[:, :, poor]
-        _put((*one, *other), poor, coalescing_quadratics(cells, None, np.broadcast_to(V, good.shape)[poor]))
+        cells = _chosen(table, poor), None if rest is None else _chosen(rest, poor)
+        _put((*one, *other), poor, coalescing_quadratics(*cells, np.broadcast_to(V, good.shape)[poor]))
     shape = np.shape(p0)
     return Quadratic(*(x.reshape(shape) for x in one)), Quadratic(*(x.reshape(shape) for x in other))
+
+
+def _chosen(table: Floats, cells: NDArray[np.bool_]) -> Floats:
+    """The tables (5, 4, cell) of some cells of the shape that table and speeds have together."""
+    padded = table.reshape(5, 4, *(1,) * (cells.ndim - table.ndim + 2), *table.shape[2:])
+    return np.broadcast_to(padded, (5, 4, *cells.shape))[:, :, cells]
 
 
 def _put(arrays: Iterable[Floats], cells: NDArray[np.bool_], values: Iterable[Floats]) -> None:

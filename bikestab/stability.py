@@ -116,7 +116,7 @@ def eigenvalues(
     from bikestab.spectrum import eigenvalues_of  # stable speeds need none of it
 
     table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
-    return eigenvalues_of(table.value, speeds)
+    return eigenvalues_of(table, speeds)
 
 
 def growth_rate(
@@ -155,7 +155,7 @@ def growth_rate(
     from bikestab.spectrum import growth_rate_of  # stable speeds need none of it
 
     table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
-    return growth_rate_of(table.value, speeds)
+    return growth_rate_of(table, speeds)
 
 
 def stable(
@@ -242,9 +242,8 @@ def modes(
     """
     from bikestab.branches import follow  # exact arithmetic, which nothing else here needs
 
-    exact, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
-    table = exact.value
-    if table.ndim > 2 or speeds.ndim > 1:
-        key = "V" if table.ndim == 2 else "lam, sigma"
+    table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
+    if table.value.ndim > 2 or speeds.ndim > 1:
+        key = "V" if table.value.ndim == 2 else "lam, sigma"
         raise InputError("modes are followed for one design along one row of speeds", key=(key,))
     return follow(table, speeds)

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.exact import Integers, integers, positive_roots, sign
-from bikestab.model import Floats
+from bikestab.model import ExactTable, Floats
 
 
 class Stretch(NamedTuple):
@@ -46,15 +46,17 @@ class Course(NamedTuple):
     meeting: list[list[tuple[int, int]]]
 
 
-def course(table: Floats) -> Course:
+def course(table: Floats | ExactTable) -> Course:
     """The events and stretches of a table of shape (5, 4), whose p4 is not zero."""
-    return _course(np.ascontiguousarray(table, dtype=float).tobytes())
+    parts = (table.value, table.rest) if isinstance(table, ExactTable) else (table,)
+    return _course(*(np.ascontiguousarray(part, dtype=float).tobytes() for part in parts))
 
 
 @lru_cache(maxsize=4)  # a table of numbers and a picture ask about the same bicycle
-def _course(data: bytes) -> Course:
-    table = np.frombuffer(data).reshape(5, 4)
-    D, Q, seminvariants = _discriminant(table)
+def _course(*parts: bytes) -> Course:
+    tables = [np.frombuffer(part).reshape(5, 4) for part in parts]
+    table = tables[0]
+    D, Q, seminvariants = _discriminant(*tables)
     events = positive_roots(np.convolve(D, Q) if any(D) and any(Q) else D if any(D) else Q)
     edges = [0.0, *events]
     between = [a + (b - a) / 2 for a, b in pairwise(edges)] + [2 * edges[-1] + 1]
@@ -141,13 +143,13 @@ def in_slots(s: NDArray[np.complex128], real: int, tilt: int) -> NDArray[np.comp
     return np.take_along_axis(s, np.argsort(-size, axis=0, kind="stable"), axis=0)
 
 
-def _discriminant(table: Floats) -> tuple[Integers, Integers, tuple[Integers, Integers]]:
+def _discriminant(*tables: Floats) -> tuple[Integers, Integers, tuple[Integers, Integers]]:
     """D and Q of the quartic e + d s + c s² + b s³ + a s⁴, and what tells four real roots from none.
 
     All roots are real where D > 0 and the two others are negative (Rees 1922). In terms of the depressed
     quartic y⁴ + P y² + Q y + R the others are 8 a² P and 16 a⁴ (4 R − P²), and Q is 8 |a|³ Q here.
     """
-    e, d, c, b, a = integers(table)
+    e, d, c, b, a = integers(*tables)
 
     def m(*polynomials: Any) -> Any:
         return reduce(np.convolve, polynomials)

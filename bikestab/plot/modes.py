@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from bikestab.bicycle import Bicycle
 from bikestab.branches import Modes, follow
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.modenames import OSCILLATING
 from bikestab.plot.axes import HALO, head_angle, remarks
 from bikestab.speeds import KINDS, intervals_of
@@ -49,7 +49,7 @@ def draw_modes(
     bicycle: Bicycle, lam: float, sigma: float, start: float, stop: float, *, model: Model = "refined"
 ) -> Figure:
     """The eigenvalues at tilt λ [rad] and trail σ [1] for speeds from ``start`` to ``stop`` [m/s]."""
-    table = characteristic_table(bicycle, lam, sigma, model=model)
+    table = exact_table(bicycle, lam, sigma, model=model)
     met = follow(table, start).coalescences
     near = np.outer(met, 1 + np.array([-1e-4, -1e-6, -1e-9, 1e-9, 1e-6, 1e-4])).ravel()  # steep there
     V = np.union1d(np.linspace(start, stop, _SAMPLES), near[(near > start) & (near < stop)])
@@ -133,7 +133,7 @@ def _lines(modes: Modes) -> list[_Line]:
     return lines
 
 
-def _stable_bands(ax: Axes, table: Floats) -> tuple[list[float], int]:
+def _stable_bands(ax: Axes, table: ExactTable) -> tuple[list[float], int]:
     """Shade the stable speeds; write their ends above the frame. The ends, and how many rows of text."""
     start, stop = ax.get_xlim()
     found = intervals_of(table)

@@ -15,7 +15,7 @@ import numpy as np
 from mpmath import mp, mpf
 
 from bikestab.bicycle import Bicycle
-from bikestab.model import Floats, characteristic_table
+from bikestab.model import ExactTable, Floats, exact_table
 from bikestab.spectrum import eigenvalues_of
 from bikestab.stretches import course
 from tests.references.count_names import SIZES, machine
@@ -32,7 +32,7 @@ def errors(machines: int, speeds: int, seed: int = 1) -> Floats:
         parameters = machine((*SIZES, "skates")[len(rows) % 5], rng)
         delta = rng.choice([0.0, 10 ** rng.uniform(-3, 1)])
         bicycle = Bicycle.from_mapping(parameters).with_delta(delta)
-        table = characteristic_table(bicycle, bicycle.lam, bicycle.sigma)
+        table = exact_table(bicycle, bicycle.lam, bicycle.sigma)
         events = [V for V, met in zip(*course(table)[::2], strict=True) if met and V < 100]
         if not events:
             continue
@@ -45,7 +45,7 @@ def errors(machines: int, speeds: int, seed: int = 1) -> Floats:
     return np.array(rows)
 
 
-def _error(table: Floats, exact: Polynomial, V: float) -> float:
+def _error(table: ExactTable, exact: Polynomial, V: float) -> float:
     coefficients = [
         sum((x.value * mpf(V) ** j for (power, j), x in exact.items() if power == k), mpf(0))
         for k in range(5)
