@@ -10,7 +10,9 @@ from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import coefficients_at
 from bikestab.spectrum import eigenvalues_of, growth_rate_of, quadratics
+from bikestab.stability import eigenvalues
 from tests.references.generate_speeds import roots
+from tests.references.measure_coalescences import errors
 from tests.strategies import lams, machines, sigmas, speeds
 
 EPS = np.finfo(float).eps
@@ -216,6 +218,17 @@ def test_coalescence(side, k):
     if k <= 7:
         assert abs(growth_rate_of(table, V) - expected) < 1e-9
     assert tolerance < 1e-5  # the bound says something: √(128 ε) times the largest eigenvalue
+
+
+def test_machines_where_two_meet():
+    """Of 100 000 problems none is beyond (python -m tests.references.measure_coalescences 5000 20)."""
+    assert errors(25, 6, seed=2).max() <= ROOT_EPS
+
+
+def test_two_equal_to_seven_digits():
+    """The doubles nearest to this design's table already move 41.620528824 to 41.620513631."""
+    found = eigenvalues(Bicycle.preset("kooijman2011"), 8.553124125507454, "5deg", 0.15)
+    assert found.real.max() == pytest.approx(41.620528824, rel=0, abs=1e-9)
 
 
 def test_leading_coefficient_zero():
