@@ -18,6 +18,8 @@ from bikestab.roots import bracketed_root
 from bikestab.rounding import COEFFICIENT, SLOPE
 from bikestab.twofold import Twofold
 
+_POOR = 2.0**-72  # relative error of a zero, far below that of a double, above which a better bound is tried
+
 
 class Zeros(NamedTuple):
     """Where polynomials change their sign: V + rest, within ``radius`` of the truth; shape (root, cell).
@@ -62,7 +64,7 @@ def zeros_of_quadratic(c0: Twofold, c1: Twofold, c2: Twofold) -> Zeros:
     for a, b, own in ((q, c2, _share(c2)), (c0, q, _share(c0))):
         exists = real & (np.sign(a.value) * np.sign(b.value) > 0)
         x = _where(exists, a) / _where(exists, b)
-        pair.append((exists, x, _nearer([c0, c1, c2], x, share + own + COEFFICIENT)))
+        pair.append((exists, x, _nearer([c0, c1, c2], x, np.where(exists, share + own + COEFFICIENT, 0.0))))
     (s0, sure0), (s1, sure1), (s2, sure2) = signs(c0), signs(c1), signs(c2)
     # with ends of the same sign there are two zeros or none
     apart = (s0 * s2 < 0) | (np.abs(square.value) > error) | (sure1 & (s0 * s2 > 0) & (s1 * s2 >= 0))
@@ -133,11 +135,14 @@ def _nearer(c: Polynomial, x: Twofold, share: Floats) -> Floats:
 
     The error of a discriminant's root is that of products of coefficients, the value's that of one.
     """
-    x = Twofold(x.value, x.rest)
-    f, slope, slope_error, bend = _values(c, x, fine=False)
-    far, certain = _distance(f, slope, slope_error, bend)
+    poor = np.flatnonzero(share > _POOR)
+    if not len(poor):
+        return share
+    here, share = Twofold(x.value[poor], x.rest[poor]), share.copy()
+    far, certain = _distance(*_values([None if a is None else a.at(poor) for a in c], here, fine=False))
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(certain, np.fmin(far / np.abs(x.value), share), share)
+        share[poor] = np.where(certain, np.fmin(far / np.abs(here.value), share[poor]), share[poor])
+    return share
 
 
 def _distance(

@@ -15,7 +15,8 @@ from bikestab.rounding import ENTRY
 from bikestab.routh import CONDITIONS, Rows, hurwitz3_of
 from bikestab.twofold import Twofold
 
-_CHUNK = 1 << 12  # cells worked on at a time, so that their temporaries fit the cache
+_CHUNK = 1 << 13  # cells worked on at a time, so that their temporaries fit the cache
+_MODERATE = 60  # binary exponents of entries whose products by three and four stay in range
 _EVEN = ((4, 0), (3, 1), (2, 0), (2, 2), (1, 1), (1, 3), (0, 0), (0, 2))  # entries without damping
 _DAMPED = (*_EVEN, (3, 0), (1, 0))
 
@@ -86,31 +87,35 @@ def _critical_of(table: ExactTable, names: Sequence[str]) -> dict[str, tuple[Zer
     for solve, chosen in groups:
         if chosen.any():
             part = table if chosen.all() else table.cells(chosen)
-            rows, unit = _scaled(part)
+            rows, unit = _scaled(part, solve is _even)
             for name in names:
                 zeros, polynomial = solve(rows, name, len(unit))
                 found[name].append((chosen, zeros.scaled(unit), _sign_near_zero(polynomial, len(unit))))
     return {name: _together(each, number) for name, each in found.items()}
 
 
-def _scaled(table: ExactTable) -> tuple[Rows, Floats]:
+def _scaled(table: ExactTable, closed: bool) -> tuple[Rows, Floats]:
     """The entries in units of speed, time and size that bring p4, q0 and k near one, and the unit of speed.
 
-    The units are powers of two, so that no bit changes: they keep products in range.
+    The units are powers of two, so that no bit changes: they keep products in range. In ``closed`` forms,
+    where intervals to be cut do not depend on them, entries that are in range already stay as they are.
     """
     exponent = np.frexp(table.value)[1]
+    if closed and np.abs(exponent).max(initial=0) < _MODERATE:
+        rows = [
+            [Twofold(table.value[i, j], table.rest[i, j], table.error[i, j] / ENTRY) for j in range(4)]
+            for i in range(5)
+        ]
+        return rows, np.ones(table.shape[-1])
     p4, k, q0 = (np.clip(exponent[index], -300, 300) for index in ((4, 0), (3, 1), (2, 0)))
     time = (q0 - p4) // 2
     speed = np.clip(p4 + time - k, -200, 200)
-    rows = []
-    for i in range(5):
-        row = []
-        for j in range(4):
-            unit = np.ldexp(1.0, time * (i - 4) + speed * j - p4)
-            row.append(
-                Twofold(table.value[i, j] * unit, table.rest[i, j] * unit, table.error[i, j] * unit / ENTRY)
-            )
-        rows.append(row)
+    nothing = Twofold(zero := np.zeros(len(p4)), zero, zero)
+    rows = [[nothing] * 4 for _ in range(5)]
+    for i, j in np.argwhere(table.error.any(axis=-1)).tolist():
+        unit = np.ldexp(1.0, time * (i - 4) + speed * j - p4)
+        value, rest, error = (each[i, j] * unit for each in table)
+        rows[i][j] = Twofold(value, rest, error / ENTRY)
     return rows, np.ldexp(1.0, speed)
 
 

@@ -94,22 +94,36 @@ def _isolated(
 
 def _halves(coefficients: Sequence[Twofold | None], cells: _Indices, least: float | None) -> _Work:
     """0 < x ≤ 1 of V = M x and of V = M/x; in double precision where a ``least`` share of sizes is given."""
+    if least is not None:
+        coefficients = [c and Twofold(c.value, 0.0, np.abs(c.value) + least * c.size) for c in coefficients]
     n = len(coefficients) - 1
     rows, zeros = [], np.zeros(len(cells))
     multiple = lcm(*(comb(n, j) for j in range(n + 1)))
     for inverse in (False, True):
-        a = [None if c is None else c * _MIDDLE**j for j, c in enumerate(coefficients)]
+        a = [c and _multiple(c, _MIDDLE**j, least) for j, c in enumerate(coefficients)]
         a = a[::-1] if inverse else a
         for i in range(n + 1):
-            terms = [x * float(comb(i, j) * multiple // comb(n, j)) for j, x in enumerate(a[: i + 1]) if x]
-            rows.append(sum(terms, Twofold(zeros)))
+            total = Twofold(zeros, 0.0, zeros)
+            for j, x in enumerate(a[: i + 1]):
+                if x is not None:
+                    term = _multiple(x, float(comb(i, j) * multiple // comb(n, j)), least)
+                    total = _total(total, term, least)
+            rows.append(total)
     whole = [Twofold(*(getattr(row, name) + zeros for name in ("value", "rest", "size"))) for row in rows]
     b = _beside([_stacked(whole[: n + 1]), _stacked(whole[n + 1 :])])
     if least is not None:
-        b = Twofold(b.value, None, np.abs(b.value) + least * b.size)
+        b = Twofold(b.value, None, b.size)
     both = np.concatenate([cells, cells])
     ends = np.zeros(len(both)), np.ones(len(both))
     return _Work(both, np.arange(len(both)) >= len(cells), *ends, b)
+
+
+def _multiple(a: Twofold, factor: float, least: float | None) -> Twofold:
+    return a * factor if least is None else Twofold(a.value * factor, 0.0, a.size * factor)
+
+
+def _total(a: Twofold, b: Twofold, least: float | None) -> Twofold:
+    return a + b if least is None else Twofold(a.value + b.value, 0.0, a.size + b.size)
 
 
 def _sign_changes(work: _Work, share: float) -> tuple[_Indices, _Flags, Floats]:

@@ -7,6 +7,7 @@ Equation numbers are those of Dikarev, Dikareva and Fufaev (1981); docs/theory.m
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import prod
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 Floats: TypeAlias = NDArray[np.float64]
 Model = Literal["refined", "unrefined"]
 MODELS: tuple[Model, ...] = ("refined", "unrefined")
+
+_CELLS = 3 << 12  # worked on at a time
 
 
 class Coefficients(NamedTuple):
@@ -78,11 +81,22 @@ def exact_table(
     rigid bodies are reduced to two parts on the way. The damping is the bicycle's ``delta``.
     Source: (2.1) of the paper, in real time and with ε = 1/V²; docs/theory.md, section 6.
     """
-    table = np.zeros((3, 5, 4, *np.broadcast_shapes(np.shape(lam), np.shape(sigma), bicycle.shape)))
-    for index, entry in _entries(_letters(bicycle, lam, sigma, model)).items():
-        table[0, *index], table[1, *index] = entry.value, entry.rest
-        table[2, *index] = ENTRY * entry.size
+    lam, sigma = np.asarray(lam, dtype=float), np.asarray(sigma, dtype=float)
+    shape = np.broadcast_shapes(lam.shape, sigma.shape, bicycle.shape)
+    table = np.zeros((3, 5, 4, *shape))
+    rows = [...] if bicycle.shape or not shape else _some_rows(shape)
+    for some in rows:
+        at = [x[some] if some is not ... and x.ndim == len(shape) and len(x) > 1 else x for x in (lam, sigma)]
+        for (k, j), entry in _entries(_letters(bicycle, at[0], at[1], model)).items():
+            table[0, k, j, some], table[1, k, j, some] = entry.value, entry.rest
+            table[2, k, j, some] = ENTRY * entry.size
     return ExactTable(*table)
+
+
+def _some_rows(shape: tuple[int, ...]) -> list[slice]:
+    """Parts of the first axis with so few cells that temporaries fit the cache."""
+    step = max(1, _CELLS * shape[0] // max(prod(shape), 1))
+    return [slice(start, start + step) for start in range(0, shape[0], step)]
 
 
 def characteristic_table(

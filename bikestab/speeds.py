@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from bikestab.critical import Critical, as_exact, critical
 from bikestab.model import ExactTable, Floats
 from bikestab.rounding import VALUE
-from bikestab.routh import coefficients_at
 
 KINDS = ("none", "weave", "capsize", "rest", "unbounded")  # value k of ``lower`` and ``upper``
 NONE, WEAVE, CAPSIZE, REST, UNBOUNDED = range(5)
@@ -112,12 +111,15 @@ def intervals_between(table: Floats | ExactTable, critical: Critical) -> Interva
     # the others keep their sign throughout a stable stretch, so any speed inside it will do
     good = lower_V < np.inf
     for name, which in (("p0", CAPSIZE), ("hurwitz3", WEAVE)):
-        odd = np.concatenate([zeros, np.cumsum(kind == which, axis=0)]) % 2
-        good &= critical.sign[name] * (1 - 2 * odd) > 0
-    column, stretch = np.nonzero(good.T)
+        positive, sign = critical.sign[name] > 0, critical.sign[name] != 0
+        good[0] &= positive
+        for i, crossed in enumerate(kind == which, 1):
+            positive = (positive ^ crossed) & sign
+            good[i] &= positive
+    column, stretch = _cells_of(good)
     low, high = lower_V[stretch, column], upper_V[stretch, column]
     inside = np.where(np.isfinite(high), low + 0.5 * (high - low), 2 * low + 1)
-    stable, clear = _others_positive(exact.cells(column), inside)
+    stable, clear = _others_positive(exact, column, inside)
     good[stretch, column] = stable
     marginal[column[~clear]] = _SIGNS
     if len(V) > 1:
@@ -127,7 +129,7 @@ def intervals_between(table: Floats | ExactTable, critical: Critical) -> Interva
         marginal[close.any(axis=0)] = _ORDER
     marginal[(good & (lower_V == upper_V)).any(axis=0)] = _WIDTH
 
-    column, stretch = np.nonzero(good.T)
+    column, stretch = _cells_of(good)
     count = np.bincount(column, minlength=n)
     nth = np.arange(len(column)) - (np.cumsum(count) - count)[column]  # in its column
     most = max(int(count.max(initial=0)), 1)
@@ -143,6 +145,13 @@ def intervals_between(table: Floats | ExactTable, critical: Critical) -> Interva
     first = np.zeros((n, most), np.uint8)
     first[:, 0] = marginal
     return Intervals._make([*map(pick, values, _EMPTY), first])
+
+
+def _cells_of(good: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Columns and rows (of few) where it holds, column by column."""
+    some = np.flatnonzero(np.logical_or.reduce(good, axis=0))
+    column, row = np.nonzero(good[:, some].T)
+    return some[column], row
 
 
 def _ends(critical: Critical) -> _Ends:
@@ -166,22 +175,30 @@ def _ends(critical: Critical) -> _Ends:
     return _Ends(*rows)
 
 
-def _others_positive(table: ExactTable, V: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _others_positive(
+    table: ExactTable, cell: NDArray[np.intp], V: Floats
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Whether p1 … p4 are positive at speeds with p0, hurwitz3 > 0, and whether that is certain.
 
     There p1 (p2 p3 − p4 p1) > p0 p3² ≥ 0, so that with p3, p4 > 0 p1 and p2 have one sign: where one of
     them is near zero the other one tells.
     """
-    p0, p1, p2, p3, p4 = coefficients_at(table.value, V)
-    sizes = coefficients_at(np.abs(table.value), V)
-    uncertain = coefficients_at(table.error, V)
-    clear = [
-        np.abs(p) > VALUE * size + error
-        for p, size, error in zip((p0, p1, p2, p3, p4), sizes, uncertain, strict=True)
-    ]
-    zero = [size + error == 0 for size, error in zip(sizes, uncertain, strict=True)]
-    first = np.where(clear[1], p1, np.where(clear[2], p2, p1))
+    has = np.logical_or.reduce(table.error, axis=-1)
+    sums = []
+    for k in range(1, 5):
+        p, bound = np.zeros(len(V)), np.zeros(len(V))
+        for j in np.flatnonzero(has[k]):
+            power = V**0 if j == 0 else V if j == 1 else V * V if j == 2 else V * V * V
+            term = table.value[k, j, cell] * power
+            p += term
+            bound += VALUE * np.abs(term) + table.error[k, j, cell] * power
+        sums.append((p, bound))
+    (p1, _), (p2, _), (p3, _), (p4, _) = sums
+    clear = [np.abs(p) > bound for p, bound in sums]
+    zero = [bound == 0 for _, bound in sums]
+    first = np.where(clear[0], p1, np.where(clear[1], p2, p1))
     stable = (first > 0) & (p3 > 0) & (p4 > 0)
-    known_bad = zero[3] | zero[4] | zero[1] | (clear[3] & (p3 < 0)) | (clear[4] & (p4 < 0))
-    known_bad |= (clear[1] & (p1 < 0)) | (clear[2] & (p2 < 0))
-    return stable, known_bad | ((clear[1] | clear[2]) & clear[3] & clear[4])
+    unstable = zero[0] | zero[2] | zero[3]
+    for p, known in zip((p1, p2, p3, p4), clear, strict=True):
+        unstable |= known & (p < 0)
+    return stable, unstable | ((clear[0] | clear[1]) & clear[2] & clear[3])
