@@ -18,7 +18,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.critical import critical
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials
-from bikestab.scanning.sheets import Atlas, Roots, most_roots
+from bikestab.scan.sheets import Atlas, Roots, most_roots
 from bikestab.speeds import intervals_between, intervals_of
 
 TILE = (64, 128)  # λ and σ, as a scan has them

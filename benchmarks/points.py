@@ -23,8 +23,8 @@ from bikestab.critical import critical
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.notation import MEIJAARD
 from bikestab.routh import conditions, violated
-from bikestab.scanning.signs import violated_between
-from bikestab.scanning.tile import Tile, compute, field_values
+from bikestab.scan.signs import violated_between
+from bikestab.scan.tile import Tile, compute, field_values
 from bikestab.units import ANGLE, PURE, quantity
 
 SHAPE = (64, 128)  # λ and σ of a tile, as a large scan has them

@@ -17,7 +17,7 @@ import common
 from common import Aim, Report, Table, Task, measure, short
 from points import SHAPE, growth, masks, tile
 
-from bikestab.scanning.tile import Tile, compute
+from bikestab.scan.tile import Tile, compute
 
 MASKS = ("stable", "violated")
 

@@ -71,9 +71,9 @@ def peak(pid: int | str = "self") -> int:
 def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
     """Around the parts of a scan; at the end ``workers`` has the peak memory of each process."""
     from bikestab.plot import pictures
-    from bikestab.scanning import processes, run, tile
-    from bikestab.scanning.bracketing import Bracketing
-    from bikestab.scanning.spool import Spool
+    from bikestab.scan import processes, run, tile
+    from bikestab.scan.bracketing import Bracketing
+    from bikestab.scan.spool import Spool
 
     clock.around(run, "run_scan", "rest")
     clock.around(run, "assemble", "writing")

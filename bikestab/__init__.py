@@ -43,6 +43,16 @@ __all__ = [
 
 
 if not TYPE_CHECKING:
+    import sys
+
+    class _Package(type(sys)):
+        """Keeps the functions scan and modes when the modules of these names are imported."""
+
+        def __setattr__(self, name, value):
+            if not (name in __all__ and isinstance(value, type(sys))):
+                super().__setattr__(name, value)
+
+    sys.modules[__name__].__class__ = _Package
 
     def __getattr__(name):
         for module, names in _HOME.items():

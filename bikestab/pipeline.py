@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from bikestab.config.file import load_config
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import InputError
-from bikestab.scanning.run import Progress, run_scan
+from bikestab.scan.run import Progress, run_scan
 from bikestab.volume import Volume
 
 

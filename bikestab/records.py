@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NotRequired, TypedDict
 from bikestab.speeds import KINDS, REASONS, Intervals
 
 if TYPE_CHECKING:
-    from bikestab.branches import Modes
+    from bikestab.modes import Modes
 
 
 class Design(TypedDict):

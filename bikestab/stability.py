@@ -1,6 +1,6 @@
 """A machine's stable speeds, eigenvalues and modes: the library's answers, asked of a Bicycle.
 
-The functions that answer for tables are in ``speeds``, ``spectrum``, ``routh`` and ``branches``.
+The functions that answer for tables are in ``speeds``, ``spectrum``, ``routh`` and ``modes``.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from bikestab.model import Floats, Model
 from bikestab.speeds import Intervals, intervals_of
 
 if TYPE_CHECKING:
-    from bikestab.branches import Modes
+    from bikestab.modes import Modes
 
 
 def stable_intervals(
@@ -240,7 +240,7 @@ def modes(
     capsize (-0.322866+0j)
     castering (-14.07839+0j)
     """
-    from bikestab.branches import follow  # exact arithmetic, which nothing else here needs
+    from bikestab.modes import follow  # exact arithmetic, which nothing else here needs
 
     table, speeds = table_and_speeds(bicycle, V, lam, sigma, model, delta)
     if table.value.ndim > 2 or speeds.ndim > 1:

@@ -1,9 +1,11 @@
 """What tests share."""
 
+from importlib import import_module
+
 import pytest
 
-from bikestab.scanning.run import run_scan
-from bikestab.scanning.tile import compute
+from bikestab.scan.run import run_scan
+from bikestab.scan.tile import compute
 from tests import volumes
 
 
@@ -16,7 +18,7 @@ def in_an_empty_folder(tmp_path, monkeypatch):
 @pytest.fixture
 def small_tiles(monkeypatch):
     """Let tiles be as small as can be: 64 tilts, 128 trails, 32 speeds."""
-    monkeypatch.setattr("bikestab.scanning.plan._TILE_BYTES", 1)
+    monkeypatch.setattr(import_module("bikestab.scan.plan"), "_TILE_BYTES", 1)
 
 
 @pytest.fixture
@@ -28,7 +30,7 @@ def computed(monkeypatch):
         begins.append(round(float(tile.V[0]), 6))
         return compute(tile)
 
-    monkeypatch.setattr("bikestab.scanning.processes.compute", count)
+    monkeypatch.setattr(import_module("bikestab.scan.processes"), "compute", count)
     return begins
 
 

@@ -52,7 +52,7 @@ def test_a_reader_loads_numpy_and_h5py_only(module):
     loaded = {name.partition(".")[0] for name in json.loads(done.stdout)}
     assert not loaded & {"scipy", "pydantic", "pydantic_core", "isal", "matplotlib", "ruamel", "click"}
     ours = {name for name in json.loads(done.stdout) if name.startswith("bikestab")}
-    assert not ours & {"bikestab.spectrum", "bikestab.speeds", "bikestab.config", "bikestab.scanning"}
+    assert not ours & {"bikestab.spectrum", "bikestab.speeds", "bikestab.config", "bikestab.scan"}
 
 
 def test_a_field_is_one_record(tmp_path):

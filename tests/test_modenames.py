@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from bikestab.bicycle import Bicycle
-from bikestab.branches import follow
 from bikestab.model import characteristic_table
 from bikestab.modenames import NAMES, OSCILLATING
+from bikestab.modes import follow
 from bikestab.speeds import KINDS, intervals_of
 from tests.references.count_names import count, tables
-from tests.test_branches import product, table_of_preset
+from tests.test_modes import product, table_of_preset
 
 
 def test_edges_and_modes_have_the_same_names():

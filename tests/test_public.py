@@ -29,7 +29,7 @@ def test_importing_it_imports_nothing_else():
 
 def test_no_module_stands_where_a_public_name_is():
     modules = [module.name for module in pkgutil.walk_packages(bikestab.__path__, "bikestab.")]
-    assert "bikestab.scanning.run" in modules
+    assert "bikestab.scan.run" in modules
     program = (
         f"import bikestab as bs, {', '.join(modules)}\n"
         "print(*(type(getattr(bs, name)).__name__ for name in bs.__all__))"

@@ -12,8 +12,8 @@ from bikestab.export.summary import summary
 from bikestab.fields import AXES
 from bikestab.model import characteristic_table, exact_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scanning.labels import MARGINAL
-from bikestab.scanning.run import run_scan
+from bikestab.scan.labels import MARGINAL
+from bikestab.scan.run import run_scan
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import KINDS, REASONS, intervals_of
 from bikestab.volume import Volume

@@ -13,7 +13,7 @@ from bikestab.errors import InputError
 from bikestab.fields import AXES
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 from bikestab.spectrum import growth_rate_of
 from bikestab.volume import Volume, uniform
 from tests.volumes import EQUAL, config_of

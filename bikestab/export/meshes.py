@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bikestab.export.endings import file_format
+from bikestab.export.formats import file_format
 from bikestab.files import written
 from bikestab.model import Floats
 from bikestab.region.mesh import Mesh

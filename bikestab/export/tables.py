@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.export.endings import file_format
+from bikestab.export.formats import file_format
 from bikestab.files import written
 from bikestab.model import Floats
 from bikestab.records import design_record
 from bikestab.speeds import KINDS, REASONS
 
 if TYPE_CHECKING:
-    from bikestab.branches import Modes
     from bikestab.design.optimum import JudgedDesign
+    from bikestab.modes import Modes
     from bikestab.region.curves import Curve
     from bikestab.volume import Volume
 

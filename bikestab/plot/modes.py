@@ -13,9 +13,9 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from bikestab.bicycle import Bicycle
-from bikestab.branches import Modes, follow
 from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.modenames import OSCILLATING
+from bikestab.modes import Modes, follow
 from bikestab.plot.axes import HALO, head_angle, remarks
 from bikestab.speeds import KINDS, intervals_of
 

@@ -8,8 +8,8 @@ from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, t
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
-    from bikestab.branches import Modes
     from bikestab.model import Model
+    from bikestab.modes import Modes
     from bikestab.records import Design, Interval, Verdict
 
 COLUMNS = ("weave", "capsize", "castering")

@@ -85,7 +85,7 @@ def command(
       bikestab export out/quick --mesh region.vtp --mesh region.stl --scale 50,100,1
       bikestab export out/quick --intervals intervals.parquet
     """
-    from bikestab.export.endings import file_format
+    from bikestab.export.formats import file_format
     from bikestab.export.meshes import MESHES, scale_text
     from bikestab.export.tables import TABLES
     from bikestab.export.volumes import export_intervals, export_mesh, export_skeleton

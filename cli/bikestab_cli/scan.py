@@ -16,7 +16,7 @@ from bikestab_cli.progress import progress
 
 if TYPE_CHECKING:
     from bikestab.config.scanconfig import ScanConfig
-    from bikestab.scanning.run import ScanResult
+    from bikestab.scan.run import ScanResult
 
 
 @click.command("scan")
@@ -83,7 +83,7 @@ def _load(names: tuple[str, ...], overrides: tuple[str, ...]) -> list[tuple[str,
     """All configs, before the first is computed."""
     from bikestab.config.file import load_config
     from bikestab.errors import InputError
-    from bikestab.scanning.output import check_size, volume_path
+    from bikestab.scan.output import check_size, volume_path
 
     loaded: dict[Path, tuple[str, ScanConfig]] = {}
     for name in names:
@@ -101,8 +101,8 @@ def _run(
     name: str, config: ScanConfig, force: bool, jobs: int | None, scheduler: str, quiet: bool
 ) -> tuple[ScanResult, list[Path]]:
     from bikestab.plot.pictures import draw_pictures
-    from bikestab.scanning.output import tiles_path
-    from bikestab.scanning.run import run_scan
+    from bikestab.scan.output import tiles_path
+    from bikestab.scan.run import run_scan
 
     try:
         with progress(name, quiet) as show:

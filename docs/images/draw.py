@@ -32,7 +32,7 @@ from bikestab.plot.designs import draw_designs
 from bikestab.plot.region import draw_region
 from bikestab.plot.slices import draw_slice
 from bikestab.region.curves import trace
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 from bikestab.volume import Volume
 
 HERE = Path(__file__).parent

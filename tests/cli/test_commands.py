@@ -14,7 +14,7 @@ from ruamel.yaml import YAML
 from bikestab import __version__, yamltext
 from bikestab.bicycle import Bicycle, preset_text
 from bikestab.config.file import load_config, parse_config
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 CONFIG = """\

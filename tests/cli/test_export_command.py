@@ -12,7 +12,7 @@ import pytest
 
 from bikestab import yamltext
 from bikestab.config.file import parse_config
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 
 pyvista = pytest.importorskip("pyvista")
 parquet = pytest.importorskip("pyarrow.parquet")

@@ -15,7 +15,7 @@ import pytest
 
 from bikestab import yamltext
 from bikestab.config.file import parse_config
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 
 BIKESTAB = shutil.which("bikestab", path=str(Path(sys.executable).parent)) or shutil.which("bikestab")
 GRID = """\

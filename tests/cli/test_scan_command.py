@@ -2,13 +2,14 @@
 
 import json
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 
 import h5py
 import pytest
 from bikestab_cli import progress
 
-from bikestab.scanning import processes
+from bikestab.scan import processes
 
 CONFIG = """\
 bicycle: dikarev1981
@@ -215,8 +216,8 @@ def tiles(monkeypatch):
         return really_compute(tile)
 
     really_compute = processes.compute
-    monkeypatch.setattr("bikestab.scanning.plan._TILE_BYTES", 1)
-    monkeypatch.setattr("bikestab.scanning.processes.compute", compute)
+    monkeypatch.setattr(import_module("bikestab.scan.plan"), "_TILE_BYTES", 1)
+    monkeypatch.setattr(import_module("bikestab.scan.processes"), "compute", compute)
     for name in ("a", "b"):
         Path(f"{name}.yaml").write_text(CONFIG.replace("num: 11", "num: 100"))
     return stops
@@ -295,7 +296,7 @@ def test_a_log_gets_a_line_now_and_then(scan, tiles, monkeypatch):
 
 
 def test_processes(scan, monkeypatch):
-    monkeypatch.setattr("bikestab.scanning.plan._TILE_BYTES", 1)
+    monkeypatch.setattr(import_module("bikestab.scan.plan"), "_TILE_BYTES", 1)
     volumes = set()
     for args in (["--jobs", "2"], ["--force", "--jobs", "1"]):
         assert scan("a.yaml", "--set", "grid.V.num=100", *args)[::2] == (0, "")

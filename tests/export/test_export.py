@@ -12,7 +12,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.config.file import parse_config
 from bikestab.errors import InputError
 from bikestab.export import tables
-from bikestab.export.endings import file_format
+from bikestab.export.formats import file_format
 from bikestab.export.meshes import MESHES, readable_scale, save_mesh
 from bikestab.export.tables import INTERVALS, SKELETON, interval_blocks, save_table, skeleton_blocks
 from bikestab.family import Family
@@ -20,7 +20,7 @@ from bikestab.model import characteristic_table, exact_table
 from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import region_mesh
 from bikestab.routh import conditions
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 from bikestab.speeds import CAPSIZE, KINDS, WEAVE, intervals_of
 from bikestab.volume import Volume
 

@@ -6,7 +6,7 @@ from bikestab import yamltext
 from bikestab.config.file import parse_config
 from bikestab.plot import pictures, region
 from bikestab.plot.pictures import draw_pictures
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 
 CONFIG = """\
 bicycle: meijaard2007

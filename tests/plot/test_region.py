@@ -7,7 +7,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from bikestab.config.file import load_config
 from bikestab.plot.region import SHEETS, draw_region
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 from bikestab.volume import Volume
 
 CONFIG = """

@@ -14,7 +14,7 @@ from bikestab.model import characteristic_table
 from bikestab.plot.files import save
 from bikestab.plot.slices import draw_slice
 from bikestab.routh import conditions
-from bikestab.scanning.run import run_scan
+from bikestab.scan.run import run_scan
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import CAPSIZE, WEAVE, intervals_of
 from bikestab.volume import Volume

@@ -1,7 +1,7 @@
 """How often a mode bears another name than the edge that it makes: over random machines of five kinds.
 
 The eigenvalue that crosses the axis at an end of the stable speeds is found by numpy in the coefficients of
-the polynomial, its name by ``branches``. Run ``python -m tests.references.count_names 3000``.
+the polynomial, its name by ``modes``. Run ``python -m tests.references.count_names 3000``.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from collections import Counter
 import numpy as np
 
 from bikestab.bicycle import Bicycle
-from bikestab.branches import follow
 from bikestab.model import Floats, characteristic_table
+from bikestab.modes import follow
 from bikestab.speeds import KINDS, intervals_of
 
 # wheelbase, height and place of the rider, masses of wheels, rider and fork

@@ -1,0 +1,144 @@
+"""Tiles → finished tiles: in this process, or in processes of this machine. ``cluster`` has other machines.
+
+Threads gain nothing here: numpy's calls on tiles that fit the cache take some 10 µs, and a thread that waits
+for the interpreter's lock is woken only after several of these.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+import traceback
+from collections import deque
+from collections.abc import Generator, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+from multiprocessing import resource_tracker
+from multiprocessing.connection import Connection, wait
+from queue import SimpleQueue
+from types import ModuleType
+from typing import cast
+
+from bikestab.errors import KEPT, ScanError
+from bikestab.scan.tile import Finished, Tile, compute
+
+Numbered = tuple[int, Tile]
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def in_turn(tiles: Iterable[Numbered]) -> Generator[tuple[int, Finished]]:
+    """Compute each tile here."""
+    for number, tile in tiles:
+        yield number, compute(tile)
+
+
+def in_processes(tiles: Iterable[Numbered], jobs: int) -> Generator[tuple[int, Finished]]:
+    """Compute tiles in ``jobs`` processes, in any order. ScanError if one of them dies.
+
+    Each has one tile at work and one in reserve, no more: they hold memory.
+    """
+    todo = iter(tiles)
+    with ExitStack() as stack:
+        workers = {stack.enter_context(_worker()): deque[int]() for _ in range(jobs)}
+        try:
+            for worker in 2 * list(workers):
+                _hand(worker, todo, workers)
+            while busy := [worker for worker, numbers in workers.items() if numbers]:
+                for worker in cast("list[Connection]", wait(busy)):
+                    answer = worker.recv()
+                    number = workers[worker].popleft()
+                    _hand(worker, todo, workers)
+                    if isinstance(answer, BaseException):
+                        raise answer
+                    yield number, answer
+        except (EOFError, OSError):
+            raise ScanError(f"a worker process died; perhaps the memory is full\n{KEPT}") from None
+
+
+def _hand(worker: Connection, todo: Iterator[Numbered], workers: dict[Connection, deque[int]]) -> None:
+    for number, tile in todo:
+        worker.send(tile)
+        workers[worker].append(number)
+        return
+
+
+@contextmanager
+def _worker() -> Iterator[Connection]:
+    """A process that answers each tile with what ``compute`` makes of it."""
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_serve, args=(theirs,), daemon=True)
+    try:
+        with undisturbed():
+            process.start()
+        theirs.close()
+        yield ours
+    finally:
+        if process.pid is not None:
+            process.kill()  # it holds nothing, and a tile at work would only be waited for
+            process.join()
+        ours.close()
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Let processes that are started here know nothing of Ctrl-C, nor of the script that was started."""
+    mask = None
+    if hasattr(signal, "pthread_sigmask"):
+        resource_tracker.ensure_running()  # which lets signals through again when it starts
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        with without_script():
+            yield
+    finally:
+        if mask is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+@contextmanager
+def without_script() -> Iterator[None]:
+    """Let processes that are started here not import the script that was started.
+
+    It may not be made for that, and has nothing that they need.
+    """
+    main = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = main
+
+
+def _serve(parent: Connection) -> None:
+    """What a worker process does, until nobody is there any more who wants it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    tiles: SimpleQueue[Tile] = SimpleQueue()
+    threading.Thread(target=_receive, args=(parent, tiles), daemon=True).start()
+    while True:
+        answer: Finished | Exception
+        try:
+            answer = compute(tiles.get())
+        except Exception as error:  # whatever it is, the parent tells of it
+            error.add_note(traceback.format_exc())
+            answer = error
+        try:
+            parent.send(answer)
+        except OSError:
+            os._exit(0)
+
+
+def _receive(parent: Connection, tiles: SimpleQueue[Tile]) -> None:
+    """Take tiles while others are computed, so that the parent never has to wait before it can go on."""
+    try:
+        while True:
+            tiles.put(parent.recv())
+    except (EOFError, OSError):
+        os._exit(0)  # the parent is gone

@@ -1,0 +1,174 @@
+"""The mask from exact roots against the conditions evaluated at every point."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bikestab.bicycle import Bicycle
+from bikestab.critical import critical
+from bikestab.model import characteristic_table
+from bikestab.routh import CONDITIONS, conditions, violated
+from bikestab.scan.signs import ALL, NEAR, violated_between
+from tests.onecell import table_of
+from tests.strategies import lams, machines, sigmas
+
+DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
+GRIDS = {
+    "from rest": np.linspace(0, 15, 301),
+    "not from rest": np.linspace(0.7, 12, 77),
+    "two": np.array([0.0, 30.0]),
+    "two, not from rest": np.array([3.0, 5.0]),
+    "many": np.linspace(0, 60, 500),
+    "uneven": np.concatenate([[0, 1e-6, 1e-3], np.geomspace(0.1, 1000, 40)]),
+}
+# A condition this small beside the sum of its terms' sizes has no sign: about 16 roundings on the way to it,
+# and hurwitz3 as a polynomial drops coefficients below 64 ε of theirs.
+NO_SIGN = 128 * np.finfo(float).eps
+
+
+def box(bicycle, n=12, model="refined"):
+    """The table (5, 4, cell) of the paper's box."""
+    lam, sigma = np.linspace(0, 0.6, n), np.linspace(0, 0.3, n + 1)
+    return characteristic_table(bicycle, lam[:, np.newaxis], sigma, model=model).reshape(5, 4, -1)
+
+
+def both(table, V):
+    """The mask by either way, and where a condition that is not zero to rounding has two signs."""
+    V = np.asarray(V, float)
+    runs, values = violated_between(table, critical(table), V), conditions(table[..., np.newaxis], V)
+    points = violated(values)
+    p0, p1, p2, p3, p4, _ = conditions(np.abs(table)[..., np.newaxis], V)
+    sizes = [p0, p1, p2, p3, p4, p1 * (p2 * p3 + p4 * p1) + p0 * p3**2]
+    wrong = np.zeros(runs.shape, bool)
+    for bit, (value, size) in enumerate(zip(values, sizes, strict=True)):
+        wrong |= (((runs ^ points) >> bit) & 1 == 1) & ~(np.abs(value) <= NO_SIGN * size)
+    assert runs.dtype == np.uint8
+    assert runs.shape == (table.shape[-1], len(V))
+    return runs, points, wrong
+
+
+@pytest.mark.parametrize("grid", GRIDS)
+@pytest.mark.parametrize(
+    ("bicycle", "model"),
+    [
+        (DIKAREV, "refined"),
+        (DIKAREV, "unrefined"),
+        (MEIJAARD, "refined"),
+        (DIKAREV.with_delta(2.0), "refined"),
+        (MEIJAARD.with_delta(0.1), "unrefined"),
+        (Bicycle.preset("sharp1971"), "refined"),
+        (Bicycle.preset("kooijman2011"), "refined"),
+    ],
+    ids=["1981", "1981 unrefined", "2007", "1981 damped", "2007 damped unrefined", "motorcycle", "skates"],
+)
+def test_every_point_has_the_same_mask(bicycle, model, grid):
+    runs, points, _ = both(box(bicycle, model=model), GRIDS[grid])
+    np.testing.assert_array_equal(runs, points)
+    if len(GRIDS[grid]) > 2:
+        assert len(np.unique(runs)) > 3
+
+
+@settings(deadline=None, max_examples=80, derandomize=True)
+@given(
+    machine=machines,
+    lam=st.lists(lams, min_size=2, max_size=4),
+    sigma=sigmas,
+    start=st.just(0.0) | st.floats(0, 5),
+    step=st.floats(1e-3, 20),
+    num=st.integers(2, 60),
+)
+def test_random_machines(machine, lam, sigma, start, step, num):
+    table = characteristic_table(Bicycle.from_mapping(machine), np.array(lam), sigma)
+    _, _, wrong = both(table, start + step * np.arange(num))
+    assert not wrong.any()
+
+
+# --- speeds at and around the roots
+
+
+@pytest.mark.parametrize("bicycle", [DIKAREV, MEIJAARD.with_delta(1.0)], ids=["1981", "2007 damped"])
+@pytest.mark.parametrize("shift", [0, 1e-15, -1e-15, 1e-12, -1e-12, 0.9 * NEAR, -1.1 * NEAR, 1e-7])
+def test_speeds_on_roots(bicycle, shift):
+    """At a root of one cell, and as close to it as rounding can tell; the others' are far away."""
+    table = box(bicycle, 5)
+    roots = [root for speeds in critical(table).speeds.values() for root in speeds.ravel()]
+    V = np.unique(np.array([root for root in roots if root < 50]) * (1 + shift))
+    assert len(V) > 50
+    for some in (V, np.concatenate([[0.0], V])):
+        runs, points, _ = both(table, some)
+        np.testing.assert_array_equal(runs, points)
+
+
+def test_several_roots_between_two_neighbouring_speeds():
+    """p4 has one, p3 two and p0 three between 1 and 4; hurwitz3 has its own."""
+    table = table_of(p0=[-6.6, 12.11, -6.6, 1.1], p3=[7.25, -5.0, 0.85], p4=[-2.5, 1.0])
+    roots = critical(table).speeds
+    assert [len(roots[name]) for name in ("p0", "p3", "p4")] == [3, 2, 1]
+    assert np.all((roots["p3"] > 1) & (roots["p3"] < 4))
+    for V in ([1.0, 4.0], [0.0, 1.0, 4.0, 9.0], [0.0, 9.0], np.linspace(0, 9, 400)):
+        runs, points, _ = both(table, V)
+        np.testing.assert_array_equal(runs, points)
+    assert len(np.unique(both(table, np.linspace(0, 9, 400))[0])) >= 6
+
+
+def test_a_pair_between_two_neighbouring_speeds_leaves_the_mask_as_it_was():
+    table = table_of(p2=[6.25 - 1e-6, -5.0, 1.0])  # zero at 2.5 ± 0.001
+    runs, points, _ = both(table, [2.0, 3.0, 4.0])
+    np.testing.assert_array_equal(runs, points)
+    assert not (runs >> CONDITIONS.index("p2") & 1).any()
+
+
+def test_a_double_root_changes_nothing_even_on_a_speed():
+    """p2 = (V − 2)² is no critical speed. At 2 it is zero, which the points call violated: it has no sign."""
+    table = table_of(p2=[4.0, -4.0, 1.0])
+    runs, points, wrong = both(table, [0.0, 1.0, 2.0, 3.0])
+    assert (runs >> 2 & 1).tolist() == [[0, 0, 0, 0]]
+    assert (points >> 2 & 1).tolist() == [[0, 0, 1, 0]]
+    assert not wrong.any()
+
+
+def test_where_two_roots_have_nearly_met_the_ways_differ_by_rounding_only():
+    """p0 = (V − 2)² − ε²: within a few 1e-8 m/s of 2 its sign is rounding."""
+    V = 2 + np.arange(-40, 41) * 1e-9
+    for width in (0, 1e-9, 1e-8, 3e-8):
+        assert not both(table_of(p0=[4 - width**2, -4.0, 1.0]), V)[2].any()
+    far = both(table_of(p0=[4 - 1e-6, -4.0, 1.0]), V)
+    np.testing.assert_array_equal(far[0], far[1])
+
+
+# --- conditions that are nothing
+
+
+def test_what_is_no_number_is_violated():
+    table = box(DIKAREV, 3)
+    table[..., 4] = np.nan
+    for V in ([0.0, 5.0, 9.0], [1.0, 2.0]):
+        runs, points, _ = both(table, V)
+        np.testing.assert_array_equal(runs, points)
+        assert np.all(runs[4] == ALL)
+
+
+@pytest.mark.parametrize("name", CONDITIONS[:-1])
+def test_a_condition_that_is_zero_everywhere_is_violated(name):
+    runs, points, _ = both(table_of(**{name: [0.0]}), [0.0, 1.0, 50.0])
+    np.testing.assert_array_equal(runs, points)
+    assert np.all(runs >> CONDITIONS.index(name) & 1)
+
+
+def test_hurwitz3_that_cancels_exactly():
+    """(s² + a²)(s² + k V s + b²) in numbers without rounding: zero at every speed."""
+    a2, b2, k = 0.625, 2.5, 1.75
+    table = np.zeros((5, 4, 1))
+    table[4, 0], table[3, 1], table[2, 0], table[1, 1], table[0, 0] = 1, k, a2 + b2, a2 * k, a2 * b2
+    runs, _, wrong = both(table, np.linspace(0, 20, 200))
+    assert not wrong.any()
+    assert np.all(runs >> CONDITIONS.index("hurwitz3") & 1)
+
+
+def test_a_cell_does_not_depend_on_its_company():
+    table, V = box(DIKAREV.with_delta(0.5), 6), GRIDS["from rest"]
+    whole = violated_between(table, critical(table), V)
+    for cell in (0, 17, table.shape[-1] - 1):
+        alone = table[..., cell : cell + 1]
+        np.testing.assert_array_equal(violated_between(alone, critical(alone), V)[0], whole[cell])
