@@ -12,9 +12,10 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bikestab.bairstow import polished, settled
 from bikestab.coalescing import coalescing_quadratics
 from bikestab.model import ExactTable, Floats
-from bikestab.quartic import Factors, Quadratic, polished, quadratic, settled, split
+from bikestab.quartic import Factors, Quadratic, quadratic, split
 from bikestab.routh import coefficients_at
 
 

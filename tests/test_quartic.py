@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from bikestab.bairstow import polished
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
-from bikestab.quartic import Factors, polished, split
+from bikestab.quartic import Factors, split
 from bikestab.routh import coefficients_at
 
 

@@ -221,7 +221,7 @@ def test_coalescence(side, k):
 
 
 def test_machines_where_two_meet():
-    """Of 100 000 problems none is beyond (python -m tests.references.measure_coalescences 5000 20)."""
+    """A sample of python -m tests.references.measure_coalescences 500 20."""
     assert errors(25, 6, seed=2).max() <= ROOT_EPS
 
 

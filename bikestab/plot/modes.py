@@ -84,12 +84,11 @@ def draw_modes(
     )
     ax.set_xlabel("speed V [m/s]")
     ax.tick_params(direction="in", top=True, right=True)
-    ax.set_title(
+    title = (
         f"{bicycle.name}: λ = {lam:.6g} rad (head angle {head_angle(lam):.2f}°), "
-        f"σ = {sigma:.6g} (trail {sigma * bicycle.c:.4g} m){remarks(bicycle, model)}",
-        fontsize=10,
-        pad=8 + 13 * rows,
+        f"σ = {sigma:.6g} (trail {sigma * bicycle.c:.4g} m){remarks(bicycle, model)}"
     )
+    ax.set_title(title, fontsize=min(10, 10 * 85 / len(title)), pad=8 + 13 * rows)
     return figure
 
 
