@@ -70,7 +70,7 @@ def _write(
     writer.write_fields(place, plan[number].shape, unbundled(spool.read(number, slice(size, None))))
     if size:
         columns = _columns(spool, number)
-        bracketing.add(plan.cell(number), plan[number], columns.roots)
+        bracketing.add(plan.cell(number), plan[number], columns.roots, columns.undecided)
         surfaces = {
             name: atlas.sheets(plan.cell(number), columns.roots[name], columns.intervals)
             for name, atlas in atlases.items()

@@ -51,9 +51,14 @@ class Bracketing:
         self._share = min(COLUMNS, POINTS / len(V)) / columns
         self._brackets: dict[str, list[Brackets]] = {name: [] for name in CONDITIONS}
 
-    def add(self, place: tuple[int, int], tile: Tile, roots: dict[str, Roots]) -> None:
-        """Find the sign changes in some columns of a tile that begins at ``place`` and has these roots."""
-        i, j = np.nonzero(self._chosen(place, tile.shape[:2]))
+    def add(
+        self, place: tuple[int, int], tile: Tile, roots: dict[str, Roots], undecided: NDArray[np.bool_]
+    ) -> None:
+        """Find the sign changes in some columns of a tile that begins at ``place`` and has these roots.
+
+        Left out are the (λ, σ) where there may be others.
+        """
+        i, j = np.nonzero(self._chosen(place, tile.shape[:2]) & ~undecided)
         step = max(1, _PART // len(self._V))
         for start in range(0, len(i), step):
             at = i[start : start + step], j[start : start + step]

@@ -14,6 +14,7 @@ from bikestab.model import Floats
 from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, condition, conditions, violated
 from bikestab.scan.agreement import AGREEMENT, Agreement, by_rounding, size_of_terms
+from bikestab.scan.signs import undecided
 
 SAMPLE = 8  # speeds of the grid at which the signs are compared
 _FAR = 1e-3  # m/s; a difference above is called infinite
@@ -26,18 +27,29 @@ def check(
 
     A root is as uncertain as the rounding of the condition's terms divided by its slope; where that
     is more than AGREEMENT neither way can tell better. There the two may differ by what the rounding
-    allows, or one of them may see two roots and the other none.
+    allows, or one of them may see two roots and the other none. Nor can they where it is undecided which
+    roots there are: what differs in such cells is counted as ``touching``.
     """
     agreement = _signs(table, mask, V)
+    open_ = undecided(critical)
     for name in CONDITIONS:
         speeds = critical.speeds[name]
         gap = np.full((len(speeds) + 1, table.shape[-1]), np.inf)
         gap[1:-1] = np.where(np.isnan(d := np.diff(speeds, axis=0)), np.inf, d)
         for root, room in zip(speeds, np.minimum(gap[1:], gap[:-1]), strict=True):
-            agreement = agreement.combined(
-                _zeros(table, name, np.where((root > above) & (root <= V[-1]), root, np.nan), room)
-            )
+            root = np.where((root > above) & (root <= V[-1]), root, np.nan)
+            agreement = agreement.combined(_zeros(table, name, np.where(open_, np.nan, root), room))
+            if open_.any():
+                of_open = _zeros(table[..., open_], name, root[open_], room[open_])
+                agreement = agreement.combined(_tolerated(of_open))
     return agreement
+
+
+def _tolerated(agreement: Agreement) -> Agreement:
+    """The same without the differences, which are no errors."""
+    if agreement.largest <= AGREEMENT:
+        return agreement
+    return agreement._replace(largest=0.0, touching=agreement.touching + agreement.roots)
 
 
 def _zeros(table: Floats, name: str, root: Floats, room: Floats) -> Agreement:

@@ -11,9 +11,12 @@ from numpy.typing import NDArray
 
 from bikestab.critical import Critical
 from bikestab.model import Floats
+from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, conditions, violated
+from bikestab.scan.agreement import size_of_terms
 
 ALL = np.uint8((1 << len(CONDITIONS)) - 1)
+_PART = 1 << 14  # points at which conditions are evaluated at a time
 NEAR = 1e-9  # relative; that close to a root rounding might decide, and the conditions are evaluated
 
 
@@ -21,7 +24,8 @@ def violated_between(table: Floats, critical: Critical, V: Floats) -> NDArray[np
     """The bit mask of ``routh.violated`` for a table (5, 4, cell) at the speeds V [m/s]; (cell, V).
 
     V ascends and is not negative. At rest, and at the speed next to a root if it is within NEAR of it, the
-    conditions themselves decide.
+    conditions themselves decide; so they do in cells that may have other roots, where they are more than
+    rounding.
     """
     n = table.shape[-1]
     first = np.zeros(n, np.uint8)  # the mask just above V = 0
@@ -42,7 +46,25 @@ def violated_between(table: Floats, critical: Critical, V: Floats) -> NDArray[np
     if close:
         cell, place = np.concatenate(close, axis=1)
         mask[cell, place] = violated(conditions(table[..., cell], V[place]))
+    cell = np.flatnonzero(undecided(critical))
+    for part in np.array_split(cell, 1 + len(cell) * len(V) // _PART):
+        mask[part] = _with_clear_signs(mask[part], table[:, :, part, np.newaxis], V)
     return mask
+
+
+def _with_clear_signs(mask: NDArray[np.uint8], table: Floats, V: Floats) -> NDArray[np.uint8]:
+    """The mask (cell, V) with the bits of conditions that are more than rounding there."""
+    values = conditions(table, V)
+    for bit, name in enumerate(CONDITIONS):
+        value = getattr(values, name)
+        clear = np.abs(value) > NO_SIGN * size_of_terms(table, name, V)
+        mask = np.where(clear, mask & ~np.uint8(1 << bit) | (value < 0).view(np.uint8) << np.uint8(bit), mask)
+    return mask
+
+
+def undecided(critical: Critical) -> NDArray[np.bool_]:
+    """Which cells may have other roots than those that are known, as rounding leaves them."""
+    return ~np.logical_and.reduce([zeros.sure for zeros in critical.zeros.values()])
 
 
 def _runs(first: NDArray[np.uint8], steps: NDArray[np.intp], num: int) -> NDArray[np.uint8]:

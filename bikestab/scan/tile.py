@@ -23,7 +23,7 @@ from bikestab.scan.chunks import bundled, packed
 from bikestab.scan.crosscheck import check
 from bikestab.scan.ensemble import ensemble_statistics
 from bikestab.scan.sheets import Roots, most_roots
-from bikestab.scan.signs import violated_between
+from bikestab.scan.signs import undecided, violated_between
 from bikestab.speeds import Intervals, intervals_between
 
 if TYPE_CHECKING:
@@ -60,11 +60,13 @@ class Tile:
 class Columns(NamedTuple):
     """What a tile's (λ, σ) have: the intervals of stable speed, the roots of each condition, and the spread.
 
-    ``spread`` (λ, σ, item) is an ensemble's ``somewhere``, ``unbounded``, and quantiles of V1 and of V2.
+    ``undecided`` (λ, σ) tells where there may be other roots. ``spread`` (λ, σ, item) is an ensemble's
+    ``somewhere``, ``unbounded``, and quantiles of V1 and of V2.
     """
 
     intervals: Intervals
     roots: dict[str, Roots]
+    undecided: NDArray[np.bool_]
     spread: Floats
 
     def to_bytes(self) -> bytes:
@@ -76,7 +78,7 @@ class Columns(NamedTuple):
         for array in (
             np.stack([V1, V2, V1_error, V2_error]), np.stack([lower, upper, marginal]),
             np.cumsum([each.shape[-1] for each in V]),
-            np.concatenate(V, axis=-1), np.concatenate(rising, axis=-1), self.spread,
+            np.concatenate(V, axis=-1), np.concatenate(rising, axis=-1), self.undecided, self.spread,
         ):  # fmt: skip
             np.save(out, array, allow_pickle=False)
         return out.getvalue()
@@ -85,10 +87,10 @@ class Columns(NamedTuple):
     def from_bytes(cls, data: bytes) -> Columns:
         """The columns that ``to_bytes`` turned into bytes."""
         file = io.BytesIO(data)
-        ends, kinds, stops, V, rising, spread = (np.load(file, allow_pickle=False) for _ in range(6))
+        ends, kinds, stops, V, rising, *others = (np.load(file, allow_pickle=False) for _ in range(7))
         each = zip(np.split(V, stops[:-1], axis=-1), np.split(rising, len(CONDITIONS), axis=-1), strict=True)
         roots = {name: Roots(*arrays) for name, arrays in zip(CONDITIONS, each, strict=True)}
-        return cls(Intervals._make([*ends[:2], *kinds[:2], *ends[2:], kinds[2]]), roots, spread)
+        return cls(Intervals._make([*ends[:2], *kinds[:2], *ends[2:], kinds[2]]), roots, *others)
 
 
 class Finished(NamedTuple):
@@ -152,7 +154,8 @@ def field_values(
         for k in range(0, len(tile.V), speeds):
             at = np.s_[i : i + cells, k : k + speeds]
             share = None if probability is None else probability[at]
-            out[at] = field.values(Points(part, tile.V[k : k + speeds], mask[at], share))
+            with np.errstate(over="ignore"):  # what single precision cannot hold is inf in the file
+                out[at] = field.values(Points(part, tile.V[k : k + speeds], mask[at], share))
     return out.reshape(tile.shape)
 
 
@@ -175,7 +178,7 @@ def _columns(table: ExactTable, exact: Critical, spread: Floats) -> Columns:
         V = exact.speeds[name].T.reshape(*shape, len(exact.speeds[name]))
         roots[name] = Roots(V, (exact.sign[name] < 0).reshape(*shape, 1))
     ends = Intervals._make(field.reshape(*shape, field.shape[-1]) for field in intervals)
-    return Columns(ends, roots, spread)
+    return Columns(ends, roots, undecided(exact).reshape(shape), spread)
 
 
 def _disagreement(agreement: Agreement) -> ScanError:

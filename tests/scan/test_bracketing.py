@@ -35,7 +35,7 @@ def roots_of(tile):
 def seen(tile, roots=None):
     """What is found in a tile that is the whole grid."""
     witness = Bracketing(tile.V, len(tile.lam) * len(tile.sigma))
-    witness.add((0, 0), tile, roots_of(tile) if roots is None else roots)
+    witness.add((0, 0), tile, roots_of(tile) if roots is None else roots, np.zeros(tile.shape[:2], bool))
     return witness.agreement()
 
 
@@ -149,7 +149,7 @@ def test_what_is_found_does_not_depend_on_the_tiles(columns, monkeypatch):
     for i in (8, 0):
         for j in (0, 5):
             part = tile_of(tile.bicycle, LAM[i : i + 8], SIGMA[j : j + (5, 7)[j > 0]])
-            parts.add((i, j), part, roots_of(part))
+            parts.add((i, j), part, roots_of(part), np.zeros(part.shape[:2], bool))
     assert parts.agreement() == whole
 
 

@@ -7,7 +7,14 @@ import pytest
 
 from bikestab.bicycle import Bicycle, parameters
 from bikestab.config.scanconfig import ScanConfig
+from bikestab.critical import critical
+from bikestab.model import exact_table
+from bikestab.rounding import NO_SIGN
+from bikestab.routh import CONDITIONS, conditions
+from bikestab.scan.agreement import AGREEMENT, size_of_terms
+from bikestab.scan.crosscheck import check
 from bikestab.scan.run import run_scan
+from bikestab.scan.signs import violated_between
 from bikestab.volume import Volume
 
 pytestmark = pytest.mark.usefixtures("in_an_empty_folder")
@@ -33,6 +40,34 @@ def machine(rng):
             n["C" + i] = 0.0
     n["delta"] = float(rng.choice([0, 1e-12, 1e-9, 1e-6, 1e-3, 1, 1e3, 1e6]))
     return Bicycle(**{key: value if value is None else min(float(value), 1e9) for key, value in n.items()})
+
+
+OPEN = {  # weave speeds farther apart than can be isolated: which there are stays undecided
+    "a high fork": {
+        "c": 1.04, "m1": 1.0, "l1": 0.4, "h1": 0.9, "A1": 3.3, "B1": 0.021477638818699067, "C1": 1e-06,
+        "R1": 0.04563019932424612, "m2": 2.7, "l2": 0.9, "h2": 1e9, "A2": 0.036, "B2": 0.22, "C2": 0.5,
+        "R2": 0.35, "g": 9.8, "delta": 1.0,
+    },
+    "a deep fork": {
+        "c": 1.0, "m1": 1e-06, "l1": 1e6, "h1": 399.0413820727467, "A1": 0.0, "B1": 0.0, "C1": 0.0, "R1": 0.0,
+        "m2": 1000.0, "l2": 1.02, "h2": -1e9, "A2": 1e6, "B2": 4.0038083850092665, "C2": 0.0, "R2": 0.0,
+        "delta": 1e-06,
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("numbers", OPEN.values(), ids=OPEN)
+def test_the_conditions_decide_where_the_roots_do_not(numbers):
+    """Wherever a condition is more than rounding, the mask has its sign."""
+    lam, sigma, V = np.linspace(-1.2, 1.3, 12), np.linspace(-2.2, 5.8, 12), np.linspace(0, 21000, 60)
+    exact = exact_table(Bicycle(**numbers), lam[:, np.newaxis], sigma).reshape(5, 4, -1)
+    table, speeds = exact.value, critical(exact)
+    mask, values = violated_between(table, speeds, V), conditions(table[..., np.newaxis], V)
+    for bit, name in enumerate(CONDITIONS):
+        value = getattr(values, name)
+        clear = np.abs(value) > NO_SIGN * size_of_terms(table[..., np.newaxis], name, V)
+        np.testing.assert_array_equal((mask >> bit & 1)[clear], value[clear] < 0)
+    assert check(table, speeds, mask, V).largest <= AGREEMENT
 
 
 @pytest.mark.parametrize("seed", range(40))
