@@ -6,27 +6,26 @@ Equation numbers are those of Dikarev, Dikareva and Fufaev (1981); docs/theory.m
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from math import prod
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.bicycle import Bicycle
-from bikestab.notation import reduced
+from bikestab.letters import MODELS as MODELS
+from bikestab.letters import Model as Model
+from bikestab.letters import determinant, letters_of
 from bikestab.rounding import ENTRY
-from bikestab.twofold import Twofold, sine_cosine
+from bikestab.twofold import Twofold
 
 if TYPE_CHECKING:
     from bikestab.machines import Machines
 
 Floats: TypeAlias = NDArray[np.float64]
-Model = Literal["refined", "unrefined"]
-MODELS: tuple[Model, ...] = ("refined", "unrefined")
-
 _CELLS = 3 << 12  # worked on at a time
+_POOR = 2.0**-16  # share of its terms below which the determinant of M is formed otherwise
 
 
 class Coefficients(NamedTuple):
@@ -87,7 +86,12 @@ def exact_table(
     rows = [...] if bicycle.shape or not shape else _some_rows(shape)
     for some in rows:
         at = [x[some] if some is not ... and x.ndim == len(shape) and len(x) > 1 else x for x in (lam, sigma)]
-        for (k, j), entry in _entries(_letters(bicycle, at[0], at[1], model)).items():
+        letters = letters_of(bicycle, at[0], at[1], model)
+        entries = _entries(letters)
+        poor = np.abs(entries[4, 0].value) < _POOR * entries[4, 0].size
+        if np.any(poor):
+            entries[4, 0] = _chosen(poor, determinant(letters), entries[4, 0])
+        for (k, j), entry in entries.items():
             table[0, k, j, some], table[1, k, j, some] = entry.value, entry.rest
             table[2, k, j, some] = ENTRY * entry.size
     return ExactTable(*table)
@@ -118,7 +122,7 @@ def coefficients(
     ``model="unrefined"`` leaves the refinement of the paper's (1.2) out of the gravity terms.
     Source: (1.3), (1.5) and section 2 of the paper, with the OCR's subscripts repaired.
     """
-    n = _letters(bicycle, lam, sigma, model)
+    n = letters_of(bicycle, lam, sigma, model)
     c = n.c
     return Coefficients(
         a0=c * n.J1,
@@ -135,50 +139,6 @@ def coefficients(
         b5=c * n.T * n.cos,
         b6=c * n.g * n.S,
     )  # (1.5)
-
-
-def _letters(bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, model: Model) -> SimpleNamespace:
-    """The paper's letters, and what (1.5) is made of: see section 5 of docs/theory.md.
-
-    J1, M12 and M22 are the inertia matrix; Q, N and W are what a3, b1 and b2 have besides the wheels' spin
-    and cos λ; T is b5 without c cos λ. S and U are sums that the refinement leaves no difference in.
-    """
-    if model not in MODELS:
-        raise ValueError(f"model is {model!r}, not one of {MODELS}")
-    p = _numbers(bicycle)
-    sin, cos = sine_cosine(lam)
-    trail = Twofold(np.asarray(sigma))
-    C1, C2 = p.C1 / p.R1, p.C2 / p.R2  # C1° and C2°: angular momentum per unit of speed
-    mu = trail * cos  # c1/c
-    e = p.m2 * (p.l2 - p.c)
-    h = p.m1 * p.h1 + p.m2 * p.h2
-    l = p.m1 * p.l1 + p.m2 * p.l2  # noqa: E741  # the paper's letter
-
-    d = p.h2 * sin + (p.l2 - p.c - trail * p.c) * cos
-    J1 = p.m1 * p.h1 * p.h1 + p.A1 + p.m2 * p.h2 * p.h2 + p.A2
-    J2 = p.m1 * p.l1 * p.l1 + p.B1 + p.m2 * p.l2 * p.l2 + p.B2
-    J12 = p.m1 * p.h1 * p.l1 + p.D1 + p.m2 * p.h2 * p.l2 - p.D2
-    md = p.m2 * d
-    J = md * d + (p.A2 * sin * sin - 2 * p.D2 * sin * cos + p.B2 * cos * cos)
-    J3 = p.h2 * md + (p.A2 * sin - p.D2 * cos)
-    J4 = p.l2 * md + (p.B2 * cos - p.D2 * sin)  # (1.3)
-
-    turn = p.m2 * p.h2 * sin + cos * (e + trail * (p.m1 * p.l1 + e))  # m2 d + l c1/c
-    if model == "refined":
-        S, U = turn, cos * (e + trail * (p.m1 * p.l1 + e)) - p.m1 * p.h1 * sin  # U = S − h sin λ
-    else:
-        along = cos * (e - trail * p.c * p.m2)
-        S, U = p.m2 * p.h2 * sin + along, along - p.m1 * p.h1 * sin
-    return SimpleNamespace(
-        c=p.c, g=p.g, delta=p.delta, sin=sin, cos=cos, C1=C1, C2=C2, h=h, J1=J1, S=S, U=U,
-        M12=J3 + mu * J12,
-        M22=J + mu * (2 * J4 + mu * J2),
-        Q=J12 + trail * (p.c * h),
-        T=C2 + trail * (C1 + C2),
-        N=J4 + trail * (p.c * turn) + mu * J2,
-        W=turn + C2 * sin,
-        missing=None if model == "refined" else h * l * mu,
-    )  # fmt: skip
 
 
 def _entries(n: SimpleNamespace) -> dict[tuple[int, int], Twofold]:
@@ -206,24 +166,10 @@ def _entries(n: SimpleNamespace) -> dict[tuple[int, int], Twofold]:
     }
 
 
-def _numbers(bicycle: Bicycle | Machines) -> SimpleNamespace:
-    """The paper's parameters; what does not spin gets a radius, for it may be a skate, with none."""
-    given: Mapping[str, Any] | None = getattr(bicycle, "bodies", None)
-    if given is None:
-        numbers = {name: Twofold(getattr(bicycle, name)) for name in _PARAMETERS}
-    else:
-        numbers = reduced({name: Twofold(value) for name, value in given.items()})
-        numbers = {name: x if isinstance(x, Twofold) else Twofold(x) for name, x in numbers.items()}
-    for i in "12":
-        still = 1 * (getattr(bicycle, f"C{i}") == 0)
-        numbers[f"R{i}"] = numbers[f"R{i}"] + still
-    return SimpleNamespace(**numbers)
-
-
-_PARAMETERS = (
-    "c", "g", "delta", "m1", "l1", "h1", "A1", "B1", "D1", "C1", "R1",
-    "m2", "l2", "h2", "A2", "B2", "D2", "C2", "R2",
-)  # fmt: skip
+def _chosen(which: NDArray[np.bool_], a: Twofold, b: Twofold) -> Twofold:
+    return Twofold(
+        *(np.where(which, x, y) for x, y in ((a.value, b.value), (a.rest, b.rest), (a.size, b.size)))
+    )
 
 
 def canonical_matrices(

@@ -8,6 +8,7 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 
+from bikestab import letters as letters_module
 from bikestab import model as model_module
 from bikestab.bicycle import Bicycle
 from bikestab.model import MODELS, characteristic_table, coefficients
@@ -28,8 +29,8 @@ s, V, c, delta = sp.Symbol("s"), derived.V, derived.c, derived.delta
 
 @pytest.fixture
 def symbols_for_numbers(monkeypatch):
-    monkeypatch.setattr(model_module, "Twofold", lambda value: sp.nsimplify(np.asarray(value).item()))
-    monkeypatch.setattr(model_module, "sine_cosine", lambda lam: (sp.sin(lam), sp.cos(lam)))
+    monkeypatch.setattr(letters_module, "Twofold", lambda value: sp.nsimplify(np.asarray(value).item()))
+    monkeypatch.setattr(letters_module, "sine_cosine", lambda lam: (sp.sin(lam), sp.cos(lam)))
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -37,15 +38,16 @@ def symbols_for_numbers(monkeypatch):
 def test_table_of_model_py(monkeypatch, model):
     """Its code, run with symbols for its letters: simplified as it is, the determinant of (1.5)."""
     bicycle = SimpleNamespace(**PARAMETERS, delta=delta)
-    own = model_module._letters(bicycle, derived.lam, derived.sigma, model)
-    n = SimpleNamespace(**{name: sp.Symbol(name) for name in vars(own)})
+    own = letters_module.letters_of(bicycle, derived.lam, derived.sigma, model)
+    n = SimpleNamespace(**{name: sp.Symbol(name) for name in vars(own) if name != "p"})
     pitch = own.W - own.C2 * own.sin - own.S  # what the refinement adds to S
     n.missing = None if model == "refined" else n.h * sp.Symbol("pitch")
     more = 0 if model == "refined" else sp.Symbol("pitch")
     n.U, n.W = n.S - n.h * n.sin, n.S + more + n.C2 * n.sin
     assert derived.same(own.U, own.S - own.h * own.sin)
     assert derived.same(pitch, 0 if model == "refined" else own.missing / own.h)
-    monkeypatch.setattr(model_module, "_letters", lambda *_: n)
+    assert derived.same(letters_module.determinant(own), own.c**2 * (own.J1 * own.M22 - own.M12**2))
+    monkeypatch.setattr(model_module, "letters_of", lambda *_: n)
     names = {AB[name]: value for name, value in coefficients(bicycle, 0, 0, model=model)._asdict().items()}
     found = model_module._entries(n)
     for k, j in np.ndindex(5, 4):

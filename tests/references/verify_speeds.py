@@ -239,7 +239,9 @@ def check(
             if not off <= 2 * EPS * right:  # κ is never below one half: V² is proportional to lengths and g
                 counts["ends of which κ was needed"] += 1
                 too_far = not off <= 4 * EPS * kappa(p, lam, sigma, right, kind) * right
-                counts["BEYOND 4 ε κ"] += too_far
+                counts["beyond 4 ε κ, marginal" if marginal else "BEYOND 4 ε κ"] += too_far
+                if too_far and not marginal:
+                    print("beyond:", V, error, off, lam, sigma, p, flush=True)
 
 
 def run(number: int, seed: int) -> tuple[Counter[str], list[float]]:

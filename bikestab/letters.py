@@ -1,0 +1,103 @@
+"""(bicycle, λ, σ) → the paper's letters, of which its equations of motion (1.5) are made."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bikestab.bicycle import Bicycle
+from bikestab.notation import reduced
+from bikestab.twofold import Twofold, sine_cosine
+
+if TYPE_CHECKING:
+    from bikestab.machines import Machines
+
+Model = Literal["refined", "unrefined"]
+MODELS: tuple[Model, ...] = ("refined", "unrefined")
+
+
+def letters_of(
+    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, model: Model
+) -> SimpleNamespace:
+    """The paper's letters, and what (1.5) is made of: see section 5 of docs/theory.md.
+
+    J1, M12 and M22 are the inertia matrix; Q, N and W are what a3, b1 and b2 have besides the wheels' spin
+    and cos λ; T is b5 without c cos λ. S and U are sums that the refinement leaves no difference in.
+    """
+    if model not in MODELS:
+        raise ValueError(f"model is {model!r}, not one of {MODELS}")
+    p = _numbers(bicycle)
+    sin, cos = sine_cosine(lam)
+    trail = Twofold(np.asarray(sigma))
+    C1, C2 = p.C1 / p.R1, p.C2 / p.R2  # C1° and C2°: angular momentum per unit of speed
+    mu = trail * cos  # c1/c
+    e = p.m2 * (p.l2 - p.c)
+    h = p.m1 * p.h1 + p.m2 * p.h2
+    l = p.m1 * p.l1 + p.m2 * p.l2  # noqa: E741  # the paper's letter
+
+    d = p.h2 * sin + (p.l2 - p.c - trail * p.c) * cos
+    J1 = p.m1 * p.h1 * p.h1 + p.A1 + p.m2 * p.h2 * p.h2 + p.A2
+    J2 = p.m1 * p.l1 * p.l1 + p.B1 + p.m2 * p.l2 * p.l2 + p.B2
+    J12 = p.m1 * p.h1 * p.l1 + p.D1 + p.m2 * p.h2 * p.l2 - p.D2
+    md = p.m2 * d
+    J = md * d + (p.A2 * sin * sin - 2 * p.D2 * sin * cos + p.B2 * cos * cos)
+    J3 = p.h2 * md + (p.A2 * sin - p.D2 * cos)
+    J4 = p.l2 * md + (p.B2 * cos - p.D2 * sin)  # (1.3)
+
+    turn = p.m2 * p.h2 * sin + cos * (e + trail * (p.m1 * p.l1 + e))  # m2 d + l c1/c
+    if model == "refined":
+        S, U = turn, cos * (e + trail * (p.m1 * p.l1 + e)) - p.m1 * p.h1 * sin  # U = S − h sin λ
+    else:
+        along = cos * (e - trail * p.c * p.m2)
+        S, U = p.m2 * p.h2 * sin + along, along - p.m1 * p.h1 * sin
+    return SimpleNamespace(
+        p=p, d=d, mu=mu, c=p.c, g=p.g, delta=p.delta, sin=sin, cos=cos, C1=C1, C2=C2, h=h, J1=J1, S=S, U=U,
+        M12=J3 + mu * J12,
+        M22=J + mu * (2 * J4 + mu * J2),
+        Q=J12 + trail * (p.c * h),
+        T=C2 + trail * (C1 + C2),
+        N=J4 + trail * (p.c * turn) + mu * J2,
+        W=turn + C2 * sin,
+        missing=None if model == "refined" else h * l * mu,
+    )  # fmt: skip
+
+
+def determinant(n: SimpleNamespace) -> Twofold:
+    """c² det M as a sum of terms that are not negative (Cauchy and Binet), for nearly singular inertias.
+
+    Both masses move sideways by h_i χ + Y_i ψ; I is what their central inertias have in M.
+    """
+    p, far = n.p, n.cos + n.mu
+    Y1, Y2 = p.l1 * n.mu, n.d + p.l2 * n.mu
+    I11 = p.A1 + p.A2
+    I12 = p.D1 * n.mu + p.A2 * n.sin - p.D2 * far
+    I22 = p.B1 * n.mu * n.mu + (p.A2 * n.sin * n.sin - 2 * p.D2 * n.sin * far + p.B2 * far * far)
+    across = p.h1 * n.d + n.mu * (p.h1 * p.l2 - p.h2 * p.l1)
+    total = p.m1 * p.m2 * across * across + (I11 * I22 - I12 * I12)
+    for m, h, Y in ((p.m1, p.h1, Y1), (p.m2, p.h2, Y2)):
+        total = total + m * (h * h * I22 - 2 * h * Y * I12 + Y * Y * I11)
+    return n.c * n.c * total
+
+
+def _numbers(bicycle: Bicycle | Machines) -> SimpleNamespace:
+    """The paper's parameters; what does not spin gets a radius, for it may be a skate, with none."""
+    given: Mapping[str, Any] | None = getattr(bicycle, "bodies", None)
+    if given is None:
+        numbers = {name: Twofold(getattr(bicycle, name)) for name in _PARAMETERS}
+    else:
+        numbers = reduced({name: Twofold(value) for name, value in given.items()})
+        numbers = {name: x if isinstance(x, Twofold) else Twofold(x) for name, x in numbers.items()}
+    for i in "12":
+        still = 1 * (getattr(bicycle, f"C{i}") == 0)
+        numbers[f"R{i}"] = numbers[f"R{i}"] + still
+    return SimpleNamespace(**numbers)
+
+
+_PARAMETERS = (
+    "c", "g", "delta", "m1", "l1", "h1", "A1", "B1", "D1", "C1", "R1",
+    "m2", "l2", "h2", "A2", "B2", "D2", "C2", "R2",
+)  # fmt: skip
