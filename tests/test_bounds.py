@@ -17,6 +17,7 @@ from tests.strategies import lams, paper_machines, sigmas
 
 EPS = np.finfo(float).eps
 CASES = json.loads((Path(__file__).parent / "references" / "hard_speeds.json").read_text("utf-8"))["cases"]
+FIRST = Path(__file__).parent / "references" / "first_sigma.json"
 DIGITS = mpf(10) ** -23  # of the values in the file, which have 24 or 25
 
 
@@ -145,3 +146,34 @@ def test_a_sample_of_random_machines_in_400_bits():
     assert counts["beside a change"] > 30
     assert counts["WRONG STRUCTURE"] == counts["OUTSIDE"] == counts["BEYOND 4 ε κ"] == 0
     assert np.median(ratios) < 1.01
+
+
+@pytest.mark.parametrize("delta", [0.0, 2e-11, 1e-12, 1e-10, 1e-6])
+def test_the_first_trail_with_a_stable_speed(delta):
+    """Right values by bisection in 70 digits; so little damping moves the trail by less than 1e-5."""
+    (case,) = [x for x in json.loads(FIRST.read_text("utf-8"))["cases"] if "parameters" in x]
+    bicycle = Bicycle.from_mapping({**case["parameters"], "delta": delta})
+    below, above = (1 - 1e-5) * case["sigma_min"], (1 + 1e-5) * case["sigma_min"]
+    found = intervals_of(exact_table(bicycle, case["lam"], np.array([0, 0.5 * below, below, above])))
+    assert found.number.tolist() == [0, 0, 0, 1]
+    assert not found.marginal.any()
+
+
+def test_what_is_zero_in_a_whole_range_comes_to_an_end():
+    """Point masses on an inertia matrix that is singular to 1e-16: hurwitz3 is rounding at all speeds."""
+    p = {
+        "c": 1.3856791557636723,
+        "m1": 121.60195427244645,
+        "l1": 0.7720000136408729,
+        "h1": 1.3796534114675736,
+    }
+    p |= {"m2": 28.768936823835837, "l2": 1.2682592952685363, "h2": 0.9918933441261892, "delta": 1.5e-12}
+    p |= {
+        "C1": 7.210267969451847,
+        "R1": 0.4622981149189026,
+        "C2": 0.26340523481600886,
+        "R2": 0.1928667866729702,
+    }
+    bicycle = Bicycle.from_mapping(p | {x + i: 0.0 for x in "AB" for i in "12"})
+    found = intervals_of(exact_table(bicycle, 0.6835654138471613, 1.026927927631216))
+    assert REASONS[found.marginal[0]]
