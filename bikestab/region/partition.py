@@ -159,6 +159,10 @@ def _crossings(box: Box, plane: Partition, sides: Index) -> Index:
         _look(box, plane, sides[open_, 1], sides[open_, 0], far)
         still = ~plane.share(sides[open_])
         open_, code = open_[still], here.code[still]
+    # between two curves the middle: their crossing is reached by halving, not by steps from curve to curve
+    both = (np.count_nonzero(plane.columns.has()[sides[open_]], axis=2) > 1).all(axis=1)
+    number[open_[both]] = _middles(box, plane, sides[open_[both]])
+    open_, code = open_[~both], code[~both]
     start, goal = plane.points[:, sides[open_].T].swapaxes(0, 1)
     way = goal - start
     length = np.hypot(*way)
