@@ -122,11 +122,7 @@ def intervals_between(table: Floats | ExactTable, critical: Critical) -> Interva
     stable, clear = _others_positive(exact, column, inside)
     good[stretch, column] = stable
     marginal[column[~clear]] = _SIGNS
-    if len(V) > 1:
-        with np.errstate(invalid="ignore"):
-            gap = (V[1:] - V[:-1]) + (rest[1:] - rest[:-1])
-        close = exists[1:] & (gap <= radius[1:] + radius[:-1]) & (kind[1:] != kind[:-1])
-        marginal[close.any(axis=0)] = _ORDER
+    marginal[_out_of_order(ends)] = _ORDER
     marginal[(good & (lower_V == upper_V)).any(axis=0)] = _WIDTH
 
     column, stretch = _cells_of(good)
@@ -173,6 +169,15 @@ def _ends(critical: Critical) -> _Ends:
                     np.where(wrong, values[i], values[i + 1]),
                 )
     return _Ends(*rows)
+
+
+def _out_of_order(ends: _Ends) -> NDArray[np.bool_]:
+    """The cells in which neighbouring ends of different kinds may be the other way round."""
+    V, rest, radius, kind = ends
+    with np.errstate(invalid="ignore"):
+        gap = (V[1:] - V[:-1]) + (rest[1:] - rest[:-1])
+    close = (kind[1:] != NONE) & (gap <= radius[1:] + radius[:-1]) & (kind[1:] != kind[:-1])
+    return np.asarray(close.any(axis=0))
 
 
 def _others_positive(

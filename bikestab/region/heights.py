@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from bikestab.model import Floats
 from bikestab.region.columns import kind_of, number_of
 from bikestab.region.events import Box
-from bikestab.region.partition import Partition
+from bikestab.region.patches import Partition
 from bikestab.region.triangulation import Index
 from bikestab.routh import conditions
 from bikestab.speeds import CAPSIZE, WEAVE, critical_speeds

@@ -12,7 +12,8 @@ from bikestab.model import Floats
 from bikestab.region.curves import trace
 from bikestab.region.events import Box
 from bikestab.region.heights import Heights, heights
-from bikestab.region.partition import Partition, partitioned
+from bikestab.region.partition import partitioned
+from bikestab.region.patches import Partition
 from bikestab.region.shell import UPPER, WALL, parted, shell
 from bikestab.region.triangulation import Index, triangulated
 from bikestab.spectrum import growth_rate_of

@@ -22,7 +22,7 @@ from scipy.sparse.csgraph import connected_components
 from bikestab.region.columns import kind_of, number_of
 from bikestab.region.events import Box
 from bikestab.region.heights import ON, Heights, distance
-from bikestab.region.partition import Partition
+from bikestab.region.patches import Partition
 from bikestab.region.triangulation import Index, sides_of
 from bikestab.speeds import CAPSIZE, NONE, WEAVE
 
