@@ -23,13 +23,14 @@ MESHES = {".vtp": "pyvista", ".vtu": "pyvista", ".ply": "", ".stl": ""}  # endin
 COLOURS = {WEAVE: (0, 114, 178), CAPSIZE: (230, 159, 0)}  # blue and orange of Okabe and Ito
 _LENGTH = 10.0  # of each side of the box in the file, as far as round factors allow
 
-_COLOUR = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+_ENDS = ("lower", "upper", "wall")
+# as meshio takes it: to it uchar is signed, float64 unknown, and faces have nothing but their corners
 _HEADER = (
     "ply\nformat binary_little_endian 1.0\n{comments}element vertex {vertices}\n"
-    "property double x\nproperty double y\nproperty double z\nproperty double growth_rate\n" + _COLOUR
-    + "element face {faces}\nproperty list uchar int vertex_indices\nproperty uchar kind\n"
-    "property uchar upper\n" + _COLOUR + "end_header\n"
-)  # fmt: skip
+    "property double x\nproperty double y\nproperty double z\nproperty double growth_rate\n"
+    "property uint8 red\nproperty uint8 green\nproperty uint8 blue\n"
+    "element face {faces}\nproperty list uint8 int32 vertex_indices\nend_header\n"
+)
 
 
 def readable_scale(low: ArrayLike, high: ArrayLike) -> Floats:
@@ -86,38 +87,37 @@ def _vtk(mesh: Mesh, points: Floats, scale: Floats, about: Mapping[str, str], en
     surface.cell_data["kind"] = mesh.kind
     surface.cell_data["upper"] = _upper(mesh)
     surface.field_data["scale"] = scale
-    for name, text in about.items():
-        surface.field_data[name] = [text]
     writer: Any
     if ending == ".vtp":
+        for name, text in about.items():
+            surface.field_data[name] = [text]
         writer, data = vtkXMLPolyDataWriter(), surface
     else:
         writer, data = vtkXMLUnstructuredGridWriter(), surface.cast_to_unstructured_grid()
     writer.SetInputData(data)
     writer.WriteToOutputStringOn()  # so that Python writes the file, and raises its errors
     writer.Write()
-    return writer.GetOutputString().encode()
+    head, body = writer.GetOutputString().split("\n", 1)
+    if ending == ".vtu":  # meshio takes no text in field data
+        lines = "".join(f"  {name}: {text}\n".replace("--", "- -") for name, text in about.items())
+        head += f"\n<!--\n{lines}-->"
+    return f"{head}\n{body}".encode()
 
 
 def _ply(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:
-    rgb: list[tuple[Any, ...]] = [("red", "u1"), ("green", "u1"), ("blue", "u1")]
     colour = np.zeros((len(KINDS), 3), np.uint8)
     colour[list(COLOURS)] = list(COLOURS.values())
-
     kind = np.zeros(len(points), np.uint8)
     for each in COLOURS:  # where both kinds meet the last one counts
         kind[mesh.triangles[mesh.kind == each]] = each
-    vertex = np.empty(len(points), [("x", "<f8"), ("y", "<f8"), ("z", "<f8"), ("growth_rate", "<f8"), *rgb])
-    vertex["x"], vertex["y"], vertex["z"] = points.T
-    vertex["growth_rate"] = mesh.decay
-    face = np.empty(
-        len(mesh.triangles), [("n", "u1"), ("i", "<i4", 3), ("kind", "u1"), ("upper", "u1"), *rgb]
-    )
-    face["n"], face["i"], face["kind"], face["upper"] = 3, mesh.triangles, mesh.kind, _upper(mesh)
-    for data, index in ((vertex, kind), (face, mesh.kind)):
-        for i, (name, _) in enumerate(rgb):
-            data[name] = colour[index, i]
-    comments = "".join(f"comment {name}: {text}\n" for name, text in about.items())
+    vertex = np.empty(len(points), [("place", "<f8", 3), ("growth_rate", "<f8"), ("colour", "u1", 3)])
+    vertex["place"], vertex["growth_rate"], vertex["colour"] = points, mesh.decay, colour[kind]
+    order = np.lexsort((_upper(mesh), mesh.kind))
+    face = np.empty(len(order), [("n", "u1"), ("i", "<i4", 3)])
+    face["n"], face["i"] = 3, mesh.triangles[order]
+    sheets, count = np.unique(np.array([mesh.kind, _upper(mesh)]), axis=1, return_counts=True)
+    told = (f"{n} {KINDS[k]} {_ENDS[end]}" for n, (k, end) in zip(count, sheets.T, strict=True))
+    comments = "".join(f"comment {k}: {text}\n" for k, text in {**about, "faces": ", ".join(told)}.items())
     header = _HEADER.format(comments=comments, vertices=len(vertex), faces=len(face))
     return header.encode() + vertex.tobytes() + face.tobytes()
 

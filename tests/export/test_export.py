@@ -25,6 +25,8 @@ from bikestab.speeds import CAPSIZE, KINDS, WEAVE, intervals_of
 from bikestab.volume import Volume
 
 pyvista = pytest.importorskip("pyvista")
+meshio = pytest.importorskip("meshio")
+trimesh = pytest.importorskip("trimesh")
 parquet = pytest.importorskip("pyarrow.parquet")
 
 BOXES = {  # bicycle, box, factors of the file
@@ -193,7 +195,7 @@ def test_ply_has_double_precision_and_colours(case):
     assert lines[:2] == ["ply", "format binary_little_endian 1.0"]
     assert "comment bicycle: ?mega bike" in lines
     vertex = np.dtype([("x", "<f8", 3), ("growth_rate", "<f8"), ("rgb", "u1", 3)])
-    face = np.dtype([("n", "u1"), ("i", "<i4", 3), ("kind", "u1"), ("upper", "u1"), ("rgb", "u1", 3)])
+    face = np.dtype([("n", "u1"), ("i", "<i4", 3)])
     n, m = len(mesh.points), len(mesh.triangles)
     vertices = np.frombuffer(body, vertex, n)
     faces = np.frombuffer(body, face, m, n * vertex.itemsize)
@@ -201,19 +203,58 @@ def test_ply_has_double_precision_and_colours(case):
     vtk = pyvista.read(folder / "region.vtp")
     np.testing.assert_array_equal(vertices["x"], vtk.points)
     np.testing.assert_array_equal(vertices["growth_rate"], mesh.decay)
-    np.testing.assert_array_equal(faces["i"], mesh.triangles)
-    np.testing.assert_array_equal(faces["kind"], mesh.kind)
-    np.testing.assert_array_equal(faces["upper"], mesh.upper)
-    expected = np.where(mesh.kind[:, np.newaxis] == WEAVE, (0, 114, 178), (230, 159, 0))
-    np.testing.assert_array_equal(faces["rgb"], expected)
+    # the faces are in the order that a comment tells
+    (told,) = (line for line in lines if line.startswith("comment faces: "))
+    start = 0
+    for part in told.removeprefix("comment faces: ").split(", "):
+        number, kind, end = part.split()
+        own = (mesh.kind == KINDS.index(kind)) & (mesh.upper == (end == "upper"))
+        np.testing.assert_array_equal(faces["i"][start : start + int(number)], mesh.triangles[own])
+        start += int(number)
+    assert start == m
 
     read = pyvista.read(folder / "region.ply")  # VTK takes coordinates to single precision
     np.testing.assert_allclose(read.points, vtk.points, rtol=1e-6, atol=1e-6)
-    np.testing.assert_array_equal(read.regular_faces, mesh.triangles)
-    np.testing.assert_array_equal(read.cell_data["RGB"], expected)
+    np.testing.assert_array_equal(read.regular_faces, faces["i"])
+    colours = np.where(mesh.kind[:, np.newaxis] == WEAVE, (0, 114, 178), (230, 159, 0))
     shared = np.intersect1d(mesh.triangles[mesh.kind == WEAVE], mesh.triangles[mesh.kind == CAPSIZE])
     own = ~np.isin(mesh.triangles, shared).any(axis=1)
-    np.testing.assert_array_equal(read.point_data["RGB"][mesh.triangles[own, 0]], expected[own])
+    np.testing.assert_array_equal(read.point_data["RGB"][mesh.triangles[own, 0]], colours[own])
+
+
+def test_meshio_reads_what_vtk_does(case):
+    *_, mesh, folder = case
+    vtk = pyvista.read(folder / "region.vtp")
+    grid = meshio.read(folder / "region.vtu")
+    np.testing.assert_array_equal(grid.points, vtk.points)
+    np.testing.assert_array_equal(grid.cells_dict["triangle"], mesh.triangles)
+    for name in ("lam", "sigma", "V", "growth_rate"):
+        np.testing.assert_array_equal(grid.point_data[name], vtk.point_data[name])
+    for name in ("kind", "upper"):
+        np.testing.assert_array_equal(grid.cell_data[name][0], vtk.cell_data[name])
+    np.testing.assert_array_equal(grid.field_data["scale"], vtk.field_data["scale"])
+    assert "  bicycle: ?mega bike" in (folder / "region.vtu").read_text().splitlines()
+    ply = meshio.read(folder / "region.ply")
+    np.testing.assert_array_equal(ply.points, vtk.points)
+    np.testing.assert_array_equal(
+        np.sort(ply.cells_dict["triangle"], axis=0), np.sort(mesh.triangles, axis=0)
+    )
+    np.testing.assert_array_equal(ply.point_data["growth_rate"], mesh.decay)
+    assert set(ply.point_data["blue"]) <= {178, 0}
+    stl = meshio.read(folder / "region.stl")
+    assert len(stl.cells_dict["triangle"]) == len(mesh.triangles)
+
+
+@pytest.mark.filterwarnings("ignore:.meshio. loading is deprecated")  # trimesh's of itself, for .vtu
+@pytest.mark.parametrize("ending", [".ply", ".vtu", ".stl"])
+def test_trimesh_finds_one_orientation(case, ending):
+    *_, mesh, folder = case
+    read = trimesh.load(folder / f"region{ending}", process=False)
+    read = read if isinstance(read, trimesh.Trimesh) else read.to_mesh()
+    assert len(read.faces) == len(mesh.triangles)
+    if ending != ".stl":
+        np.testing.assert_array_equal(read.vertices, pyvista.read(folder / "region.vtp").points)
+        assert read.is_winding_consistent
 
 
 def test_stl_has_facets_and_their_normals(case):
