@@ -18,10 +18,11 @@ from common import BICYCLE, BOX, DELTA, Aim, Report, Table, Task, measure, short
 from numpy.typing import NDArray
 
 from bikestab import yamltext
-from bikestab.bicycle import Bicycle, preset_text
+from bikestab.bicycle import Bicycle
 from bikestab.critical import critical
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.notation import MEIJAARD
+from bikestab.presets import preset_text
 from bikestab.routh import conditions, violated
 from bikestab.scan.signs import violated_between
 from bikestab.scan.tile import Tile, compute, field_values

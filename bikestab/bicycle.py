@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
@@ -17,13 +16,16 @@ from bikestab import yamltext
 from bikestab.errors import InputError, nearest
 from bikestab.limits import check_product, check_tilt, check_trail, check_value, part_warnings
 from bikestab.notation import MEIJAARD, OPTIONAL, two_parts
+from bikestab.presets import preset_names, preset_text
 from bikestab.units import ANGLE, PURE, quantity, shown
-
-_PRESETS = Path(__file__).parent / "presets"  # importlib.resources costs vrange a tenth of its start
 
 
 def _parameter(unit: str, meaning: str, check: str = "", **default: Any) -> Any:
     return field(metadata={"unit": unit, "meaning": meaning, "check": check}, **default)
+
+
+def _beside(**default: Any) -> Any:
+    return field(init=False, repr=False, compare=False, **default)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +33,9 @@ class Bicycle:
     """The parameters of one machine; all SI, angles in radians.
 
     Raises InputError (with the parameter's name as key) for what the equations cannot use.
-    ``warnings`` names what no rigid body can have; such values are still computed with.
+    ``warnings`` names what no rigid body can have; such values are still computed with. From a file with
+    uncertainties ``deviations`` has the standard deviations of the ``given`` parameters, and ``correlations``
+    those of pairs of them; ``notes`` says what of the file was left out.
 
     >>> import bikestab as bs
     >>> bike = bs.Bicycle.preset("meijaard2007")
@@ -63,7 +67,10 @@ class Bicycle:
     name: str = "bicycle"
     source: str = ""
     remarks: tuple[str, ...] = ()  # warnings about the bodies these parameters were reduced from
-    bodies: Mapping[str, float] | None = field(default=None, init=False, repr=False, compare=False)
+    bodies: Mapping[str, float] | None = _beside(default=None)
+    deviations: Mapping[str, float] = _beside(default_factory=dict)
+    correlations: Mapping[tuple[str, str], float] = _beside(default_factory=dict)
+    notes: tuple[str, ...] = _beside(default=())
     shape: ClassVar[tuple[int, ...]] = ()  # of each parameter, as in machines.Machines
 
     def __post_init__(self) -> None:
@@ -116,7 +123,20 @@ class Bicycle:
     def replaced(self, values: Mapping[str, float]) -> Bicycle:
         """A copy with other values of some parameters in its notation; InputError names the parameter."""
         kept = {k: v for k, v in self.given.items() if not (k in ("R1", "R2") and "R" in values)}
-        return Bicycle.from_mapping({**kept, **values, "source": self.source}, name=self.name)
+        bicycle = Bicycle.from_mapping({**kept, **values, "source": self.source}, name=self.name)
+        deviations = {k: sd for k, sd in self.deviations.items() if k not in values}
+        correlations = {pair: r for pair, r in self.correlations.items() if not {*pair} & {*values}}
+        return bicycle.measured(deviations, correlations, self.notes)
+
+    def measured(
+        self, deviations: Mapping[str, float], correlations: Mapping[tuple[str, str], float],
+        notes: tuple[str, ...] = (),
+    ) -> Bicycle:  # fmt: skip
+        """A copy with standard deviations of its ``given`` parameters, and correlations of pairs of them."""
+        copy = dataclasses.replace(self)
+        known = {"deviations": dict(deviations), "correlations": dict(correlations), "notes": notes}
+        vars(copy).update(known, bodies=self.bodies)  # a frozen dataclass has no other way
+        return copy
 
     def with_delta(self, delta: float | None) -> Bicycle:
         """Return a copy with the damping ``delta``, or the same for None."""
@@ -157,8 +177,15 @@ class Bicycle:
 
     @classmethod
     def from_file(cls, path: str | Path) -> Bicycle:
-        """A bicycle from a YAML file of such keys; InputError names file, line and key."""
-        return _from_text(yamltext.read_text(path), str(path), Path(path).stem)
+        """A bicycle from a file that ``bikestab.formats`` reads; InputError names file, line and key."""
+        from bikestab.formats.reading import read  # what comes with the package needs no reader
+
+        found = read(path)
+        try:
+            bicycle = cls.from_mapping(found.values, name=Path(path).stem)
+        except InputError as error:
+            raise found.located(error) from None
+        return bicycle.measured(found.deviations, found.correlations, found.notes)
 
     @classmethod
     def preset(cls, name: str) -> Bicycle:
@@ -168,43 +195,20 @@ class Bicycle:
                 f"there is no bicycle {name!r}",
                 hint=f"{nearest(name, preset_names())} (see 'bikestab bicycles')",
             )
-        return _from_text(preset_text(name), f"preset {name}", name)
+        return cls.from_mapping(yamltext.plain(preset_text(name)) or {}, name=name)
 
     @classmethod
     def load(cls, name_or_path: str) -> Bicycle:
         """A preset by its name, or else the bicycle in a file."""
-        looks_like_path = "/" in name_or_path or name_or_path.endswith((".yaml", ".yml"))
+        looks_like_path = "/" in name_or_path or "." in name_or_path
         if name_or_path not in preset_names() and (looks_like_path or Path(name_or_path).is_file()):
             return cls.from_file(name_or_path)
         return cls.preset(name_or_path)
 
 
-def _from_text(text: str, file: str, name: str) -> Bicycle:
-    """The bicycle in YAML text; InputError names file, line and key."""
-    values = yamltext.plain(text)
-    if values is not None:
-        with suppress(InputError):  # raised again below, with the line
-            return Bicycle.from_mapping(values, name=name)
-    document = yamltext.parse(text, file)
-    try:
-        return Bicycle.from_mapping(document.data, name=name)
-    except InputError as error:
-        raise document.located(error) from None
-
-
 def parameters() -> list[dataclasses.Field[Any]]:
     """The numeric fields of Bicycle, with ``unit``, ``meaning`` and ``check`` in their metadata."""
     return [f for f in dataclasses.fields(Bicycle) if f.metadata]
-
-
-def preset_names() -> list[str]:
-    """The names of the bicycles that come with the package."""
-    return sorted(path.stem for path in _PRESETS.glob("*.yaml"))
-
-
-def preset_text(name: str) -> str:
-    """The commented YAML text of a preset."""
-    return (_PRESETS / f"{name}.yaml").read_text("utf-8")
 
 
 # The paper's notation: what may stand in a file, with unit and meaning.

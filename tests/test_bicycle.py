@@ -8,10 +8,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from bikestab.bicycle import Bicycle, parameters, preset_names, preset_text
+from bikestab.bicycle import Bicycle, parameters
 from bikestab.errors import InputError
 from bikestab.limits import check_tilt
 from bikestab.model import characteristic_table
+from bikestab.presets import preset_names, preset_text
 from tests.strategies import machines, meijaard_machines
 
 PAPER = {

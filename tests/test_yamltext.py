@@ -5,8 +5,9 @@ from itertools import product
 import pytest
 
 from bikestab import yamltext
-from bikestab.bicycle import Bicycle, preset_names, preset_text
+from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
+from bikestab.presets import preset_names, preset_text
 
 LINES = [
     "", "# a comment: 1", "# \x07", "\t", "---", "...", "- 1", "  2", "  two: words # here", "   deeper",

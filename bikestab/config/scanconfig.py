@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
 
-from bikestab.bicycle import PAPER, Bicycle, preset_names
+from bikestab.bicycle import PAPER, Bicycle
 from bikestab.config.meaning import digest, drawn_around, yaml_text
 from bikestab.config.members import (
     Member,
@@ -40,6 +40,7 @@ from bikestab.errors import InputError, nearest
 from bikestab.fields import AXES, Axis, askable
 from bikestab.model import Floats, Model
 from bikestab.notation import MEIJAARD
+from bikestab.presets import preset_names
 from bikestab.units import shown
 
 

@@ -44,7 +44,8 @@ def command(
       bikestab bicycles mine.yaml -o side.png
       bikestab bicycles dikarev1981 --lam 0.2 --sigma 0.08 -o side.png
     """
-    from bikestab.bicycle import Bicycle, preset_names, preset_text
+    from bikestab.bicycle import Bicycle
+    from bikestab.presets import preset_names, preset_text
 
     if output:
         _draw(name, output, lam, sigma)

@@ -119,7 +119,7 @@ def machine_options(function: F) -> F:
         click.option(
             "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", default=DEFAULT_BICYCLE,
             show_default=True,
-            help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a YAML file.",
+            help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a file of one.",
         ),
     ):  # fmt: skip
         function = option(function)
@@ -167,7 +167,9 @@ def load_bicycle(name: str, delta: float | None) -> Bicycle:
 
 
 def warn(bicycle: Bicycle) -> None:
-    """Tell on stderr what no rigid body can have."""
+    """Tell on stderr what was left out of a file, and what no rigid body can have."""
+    for text in bicycle.notes:
+        click.echo(f"note: {bicycle.name}: {text}", err=True)
     for text in bicycle.warnings:
         click.echo(f"warning: {bicycle.name}: {text}", err=True)
 

@@ -12,8 +12,9 @@ from bikestab_cli.main import COMMANDS
 from ruamel.yaml import YAML
 
 from bikestab import __version__, yamltext
-from bikestab.bicycle import Bicycle, preset_text
+from bikestab.bicycle import Bicycle
 from bikestab.config.file import load_config, parse_config
+from bikestab.presets import preset_text
 from bikestab.scan.run import run_scan
 
 CONFIGS = Path(__file__).parents[2] / "configs"

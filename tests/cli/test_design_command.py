@@ -7,12 +7,13 @@ from functools import partial
 import jsonschema
 import pytest
 
-from bikestab.bicycle import Bicycle, preset_text
+from bikestab.bicycle import Bicycle
 from bikestab.design import best as module
 from bikestab.design import search
 from bikestab.design.best import best_designs
 from bikestab.design.criteria import Wanted
 from bikestab.family import Family
+from bikestab.presets import preset_text
 
 NUMBER, MAYBE = {"type": "number"}, {"type": ["number", "null"]}
 KIND = {"enum": ["weave", "capsize", "rest", "unbounded", None]}

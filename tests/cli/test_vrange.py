@@ -11,8 +11,9 @@ from functools import partial
 import pytest
 from bikestab_cli.main import main
 
-from bikestab.bicycle import Bicycle, preset_text
+from bikestab.bicycle import Bicycle
 from bikestab.family import Family
+from bikestab.presets import preset_text
 from bikestab.region.nearest import nearest_stable
 
 MARGINAL = """\

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from bikestab.bicycle import preset_text
 from bikestab.config.file import load_config
 from bikestab.errors import InputError
+from bikestab.presets import preset_text
 from tests.configs import GOOD, GRID_V, IN_PLACE, PAPER, change, load, message
 
 

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from ruamel.yaml import YAML
 
-from bikestab.bicycle import Bicycle, preset_text
+from bikestab.bicycle import Bicycle
 from bikestab.config.file import config_schema, load_config
+from bikestab.presets import preset_text
 from tests.configs import GOOD, GRID_V, IN_PLACE, change, load, message
 
 CONFIGS = sorted(Path(__file__).parents[2].joinpath("configs").glob("*.yaml"))

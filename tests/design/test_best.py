@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from bikestab import yamltext
-from bikestab.bicycle import Bicycle, preset_text
+from bikestab.bicycle import Bicycle
 from bikestab.design import best as module
 from bikestab.design.best import best_designs
 from bikestab.design.criteria import Wanted
 from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.model import canonical_matrices, characteristic_table
+from bikestab.presets import preset_text
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
 

@@ -10,6 +10,7 @@ import bicycleparameters
 import numpy as np
 import pytest
 from bicycleparameters import parameter_dicts
+from bicycleparameters.io import load_parameter_text_file
 from bicycleparameters.models import Meijaard2007Model
 from bicycleparameters.parameter_sets import Meijaard2007ParameterSet
 from ruamel.yaml import YAML
@@ -121,3 +122,20 @@ def test_a_measured_bicycle_without_upper_speed():
     assert found.V1.tolist() == pytest.approx([3.7753], rel=0, abs=5e-5)
     assert found.V2.tolist() == [np.inf]
     assert growth_of(machine, np.geomspace(3.8, 1e3, 100)).max() < 0
+
+
+FILES = [
+    *sorted(PACKAGE.glob("app-data/bicycles/*/Parameters/*Benchmark.txt")),
+    *sorted(PACKAGE.glob("tests/parameter_sets/benchmark-*.yml")),
+]
+
+
+@pytest.mark.filterwarnings("ignore:Using UFloat objects with std_dev==0")
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_its_files(path):
+    """Read as they are, with every uncertainty that the package's own reader finds."""
+    bicycle = Bicycle.load(str(path))
+    assert {key: bicycle.given[key] for key in KEYS} == MEASURED[path.stem]
+    own = load_parameter_text_file(path) if path.suffix == ".txt" else {}
+    expected = {key: value.std_dev for key, value in own.items() if key in KEYS and value.std_dev}
+    assert bicycle.deviations == expected

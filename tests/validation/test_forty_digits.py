@@ -8,8 +8,9 @@ import json
 import numpy as np
 import pytest
 
-from bikestab.bicycle import Bicycle, preset_names
+from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
+from bikestab.presets import preset_names
 from bikestab.spectrum import eigenvalues_of, growth_rate_of
 from tests.references import generate_eigenvalues as reference
 

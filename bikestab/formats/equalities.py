@@ -1,0 +1,127 @@
+"""Text of lines ``key = value +/- standard deviation``, as BicycleParameters has it → numbers by key.
+
+Blanks, order, blank lines and what follows a ``#`` are free. Several values behind commas are repeated
+measurements: their mean counts, with the standard deviation of the mean of independent ones, as in
+BicycleParameters. ``pi/10`` and the like are understood, and one header such as ``[bicycle]`` (INI).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from bikestab.errors import InputError
+from bikestab.units import shown
+
+_LINE = re.compile(r"\s*(?P<key>[A-Za-z_][\w.]*)\s*=\s*(?P<value>[^#]*?)\s*(?:#.*)?")
+_PLUS_MINUS = re.compile(r"\+/-|\+-|±")
+_PRODUCT = re.compile(r"(?P<sign>[-+]?)\s*(?P<first>[^*/]+)(?P<rest>(?:\s*[*/]\s*[^*/]+)*)")
+_EXAMPLE = "a line is 'key = value', or 'key = value +/- standard deviation'"
+
+
+class Measured(NamedTuple):
+    """A value as in the file (text where it is no number), its standard deviation, and its line."""
+
+    value: float | str
+    deviation: float
+    line: int
+
+
+@dataclass(frozen=True)
+class Equalities:
+    """The entries of such a text, by key, and the name of its file."""
+
+    file: str
+    entries: dict[str, Measured]
+
+    def located(self, error: InputError) -> InputError:
+        """The same error with this file, and the line of its key, in front."""
+        entry = self.entries.get(str(error.key[0])) if error.key else None
+        return error.at(f"{self.file}, line {entry.line}" if entry else self.file)
+
+    @property
+    def values(self) -> dict[str, float | str]:
+        """The values alone."""
+        return {key: entry.value for key, entry in self.entries.items()}
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """The standard deviations that are not zero."""
+        return {key: entry.deviation for key, entry in self.entries.items() if entry.deviation}
+
+
+def looks_like(text: str) -> bool:
+    """Whether the first line that says something is such an entry."""
+    for line in text.splitlines():
+        if line.strip() and not line.lstrip().startswith(("#", "[", ";")):
+            return bool(_LINE.fullmatch(line))
+    return False
+
+
+def parse(text: str, file: str) -> Equalities:
+    """The entries of a text; InputError names file, line and key."""
+    entries: dict[str, Measured] = {}
+    for number, line in enumerate(text.splitlines(), 1):
+        stripped = line.strip()
+        if not stripped or stripped[0] in "#;" or re.fullmatch(r"\[\w+\]", stripped):
+            continue
+        place = f"{file}, line {number}"
+        match = _LINE.fullmatch(line)
+        if not match:
+            raise InputError(f"{shown(stripped)} has no '='", place=place, hint=_EXAMPLE)
+        key = match["key"]
+        if key in entries:
+            problem = f"given twice, first in line {entries[key].line}"
+            raise InputError(problem, key=(key,), place=place, hint="keep one of them")
+        try:
+            entries[key] = Measured(*_mean(match["value"], key), number)
+        except InputError as error:
+            raise error.at(place) from None
+    return Equalities(file, entries)
+
+
+def _mean(text: str, key: str) -> tuple[float | str, float]:
+    """The mean of values behind commas, and its standard deviation."""
+    pairs = [_measured(part, key) for part in text.split(",")]
+    if len(pairs) == 1:
+        return pairs[0]
+    numbers = []
+    for value, _ in pairs:
+        if isinstance(value, str):
+            raise InputError(f"{shown(value)} is not a number", key=(key,), hint=_EXAMPLE)
+        numbers.append(value)
+    deviation = math.sqrt(math.fsum(sd * sd for _, sd in pairs)) / len(pairs)
+    return math.fsum(numbers) / len(numbers), deviation
+
+
+def _measured(text: str, key: str) -> tuple[float | str, float]:
+    parts = [part.strip() for part in _PLUS_MINUS.split(text)]
+    if len(parts) > 2:
+        raise InputError(f"{shown(text)} has more than one ±", key=(key,), hint=_EXAMPLE)
+    value = _number(parts[0])
+    if len(parts) == 1:
+        return (parts[0] if value is None else value), 0.0
+    deviation = _number(parts[1])
+    if value is None or deviation is None:
+        raise InputError(f"{shown(text)} is not two numbers", key=(key,), hint=_EXAMPLE)
+    if not (math.isfinite(value) and 0 <= deviation < math.inf):
+        hint = "allowed: a finite number +/- a finite one that is not negative"
+        raise InputError(f"{shown(text)} is not a measured value", key=(key,), hint=hint)
+    return value, deviation
+
+
+def _number(text: str) -> float | None:
+    """A number, or a product or quotient of numbers and pi; None for anything else."""
+    match = _PRODUCT.fullmatch(text.strip())
+    if not match:
+        return None
+    result = -1.0 if match["sign"] == "-" else 1.0
+    for operator, factor in re.findall(r"([*/])\s*([^*/]+)", "*" + match["first"] + match["rest"]):
+        try:
+            value = math.pi if factor.strip() == "pi" else float(factor)
+            result = result * value if operator == "*" else result / value
+        except (ValueError, ZeroDivisionError):
+            return None
+    return result

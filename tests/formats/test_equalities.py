@@ -1,0 +1,99 @@
+"""Text of ``key = value +/- deviation``: what BicycleParameters' reader makes of it, and what it cannot."""
+
+import math
+
+import pytest
+from bicycleparameters.io import load_parameter_text_file
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bikestab.errors import InputError
+from bikestab.formats.equalities import looks_like, parse
+
+
+def peer(tmp_path, text):
+    """Values and standard deviations as BicycleParameters reads them."""
+    path = tmp_path / "peer.txt"
+    path.write_text(text, "utf-8")
+    found = load_parameter_text_file(path)
+    return {
+        key: (getattr(value, "nominal_value", value), getattr(value, "std_dev", 0.0))
+        for key, value in found.items()
+    }
+
+
+def ours(text):
+    return {key: (entry.value, entry.deviation) for key, entry in parse(text, "x.txt").entries.items()}
+
+
+TEXT = """\
+# a comment
+w = 1.121+/-0.002
+c=0.0686 +/- 0.0017 # m
+lam =0.3997+/-0.0035
+mR= 1.38+/-0.02, 1.37+/-0.02
+mB = 9.86 +/-0.02, 9.9+/-0.04 , 9.7+/- 0.03
+nF = 4, 4
+g = 9.81
+zB = -0.538+/-2.65e-03
+v = 5.0
+"""
+
+
+def test_as_the_peer_reads_it(tmp_path):
+    expected = peer(tmp_path, TEXT)
+    found = ours(TEXT)
+    assert found.keys() == expected.keys()
+    for key, pair in expected.items():
+        assert found[key] == pytest.approx(pair, rel=1e-15)
+
+
+@settings(deadline=None, max_examples=50, derandomize=True)
+@given(st.lists(st.tuples(st.floats(-1e3, 1e3), st.floats(1e-6, 10)), min_size=1, max_size=5))
+def test_repeated_measurements(tmp_path_factory, pairs):
+    """Their mean, and the standard deviation of the mean of independent ones."""
+    text = "mB = " + ", ".join(f"{value!r}+/-{deviation!r}" for value, deviation in pairs) + "\n"
+    expected = peer(tmp_path_factory.getbasetemp(), text)["mB"]
+    assert ours(text)["mB"] == pytest.approx(expected, rel=1e-14, abs=1e-12)
+
+
+def test_what_is_free():
+    """Blanks, blank lines, a header, ± in three spellings, fractions of pi; no digit is lost."""
+    text = (
+        "\n  [bicycle]\n; old\n\tw=1.02±0.001\n\nc = 0.08 +- 0.002#x\nlam=pi/10\nmB = 2*pi\nmH = -18*pi/180\n"
+    )
+    found = parse(text, "x.txt")
+    assert found.values == {
+        "w": 1.02, "c": 0.08, "lam": math.pi / 10, "mB": 2 * math.pi, "mH": -18 * math.pi / 180
+    }  # fmt: skip
+    assert found.deviations == {"w": 0.001, "c": 0.002}
+    assert found.entries["lam"].line == 7
+    assert parse("lam = 18deg", "x").values == {"lam": "18deg"}  # units are for the bicycle
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("w 1.02", "x.txt, line 3: 'w 1.02' has no '='"),
+        ("w = 1+/-2+/-3", "x.txt, line 3: w: '1+/-2+/-3' has more than one ±"),
+        ("w = one +/- 2", "x.txt, line 3: w: 'one +/- 2' is not two numbers"),
+        ("w = 1 +/- ", "x.txt, line 3: w: '1 +/-' is not two numbers"),
+        ("w = 1.0+/-nan", "x.txt, line 3: w: '1.0+/-nan' is not a measured value"),
+        ("w = nan+/-1", "x.txt, line 3: w: 'nan+/-1' is not a measured value"),
+        ("w = 1.0+/--1", "x.txt, line 3: w: '1.0+/--1' is not a measured value"),
+        ("w = 1.0, two", "x.txt, line 3: w: 'two' is not a number"),
+        ("w = 1.0,", "x.txt, line 3: w: '' is not a number"),
+        ("c = 2", "x.txt, line 3: c: given twice, first in line 2"),
+    ],
+)
+def test_refused(line, message):
+    with pytest.raises(InputError) as caught:
+        parse(f"# head\nc = 1\n{line}\n", "x.txt")
+    assert str(caught.value).split("\n")[0] == message
+
+
+def test_recognised():
+    assert looks_like("# c\n\nw = 1\n")
+    assert looks_like("[bicycle]\nw=1\n")
+    for other in ("", "w: 1\n", "title: a = b\n", "# w = 1\n", "- w = 1\n", "{w: 1}\n", "just words\n"):
+        assert not looks_like(other)
