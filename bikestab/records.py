@@ -43,7 +43,9 @@ class Verdict(TypedDict):
 
 def interval_records(found: Intervals, *cell: int) -> list[Interval]:
     """The intervals of one cell of ``found``, by its indices, ascending."""
-    V1, V2, lower, upper, V1_error, V2_error, _ = (values[cell].tolist() for values in found)
+    V1, V2, lower, upper, V1_error, V2_error, _ = (
+        values[cell].tolist() for values in found.arrays().values()
+    )
     return [
         {
             "V1": V1[k],

@@ -7,6 +7,8 @@ stable throughout or nowhere; no grid is involved, and no interval is too narrow
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +33,8 @@ _CAPSIZE_SPEED, _WEAVE_SPEEDS, _ORDER, _SIGNS, _WIDTH = range(1, 6)
 _EMPTY = (np.nan, np.nan, NONE, NONE, np.nan, np.nan, 0)  # what stands in Intervals behind a cell's last one
 
 
-class Intervals(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Intervals:
     """Stable speeds V1 < V < V2 [m/s] of each cell, ascending; shape ``(*shape, interval)``.
 
     V1 and V2 are NaN behind a cell's last interval; V2 is inf where it is unbounded above.
@@ -39,6 +42,7 @@ class Intervals(NamedTuple):
     ``V1_error`` and ``V2_error`` [m/s]: those of exactly these inputs if the table came from
     ``exact_table``, of exactly this table if it did not. Where the number of intervals or the kind of an
     end is within rounding, the cell's first ``marginal`` is an index into REASONS, else 0.
+    Iteration gives V1, V2, lower and upper.
 
     >>> import bikestab as bs
     >>> found = bs.stable_intervals(bs.Bicycle.preset("meijaard2007"))
@@ -53,6 +57,13 @@ class Intervals(NamedTuple):
     V1_error: Floats
     V2_error: Floats
     marginal: NDArray[np.uint8]
+
+    def __iter__(self) -> Iterator[NDArray]:
+        return iter((self.V1, self.V2, self.lower, self.upper))
+
+    def arrays(self) -> dict[str, NDArray]:
+        """All seven arrays, by name."""
+        return dict(vars(self))
 
     @property
     def number(self) -> NDArray[np.intp]:
@@ -78,7 +89,7 @@ def intervals_of(table: Floats | ExactTable) -> Intervals:
     shape = exact.shape[2:]
     cells = exact.reshape(5, 4, -1)
     found = intervals_between(cells, critical(cells, ("p0", "hurwitz3")))
-    return Intervals._make(field.reshape(*shape, field.shape[-1]) for field in found)
+    return Intervals(*(field.reshape(*shape, field.shape[-1]) for field in found.arrays().values()))
 
 
 class _Ends(NamedTuple):
@@ -140,7 +151,8 @@ def intervals_between(table: Floats | ExactTable, critical: Critical) -> Interva
     )  # fmt: skip
     first = np.zeros((n, most), np.uint8)
     first[:, 0] = marginal
-    return Intervals._make([*map(pick, values, _EMPTY), first])
+    V1, V2, below, above, V1_error, V2_error = map(pick, values, _EMPTY)
+    return Intervals(V1, V2, below, above, V1_error, V2_error, first)
 
 
 def _cells_of(good: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -36,7 +37,7 @@ def test_intervals_of_each_cell():
 
 def test_what_is_within_rounding():
     found = stable_intervals(PAPER, 0.2, 0.08)
-    open_ = found._replace(marginal=np.array([2], np.uint8), V1_error=np.array([np.inf]))
+    open_ = replace(found, marginal=np.array([2], np.uint8), V1_error=np.array([np.inf]))
     assert verdict_record(open_) == {"marginal": True, "reason": REASONS[2]}
     (record,) = interval_records(open_)
     assert (record["V1_error"], record["V2_error"]) == (None, found.V2_error[0])

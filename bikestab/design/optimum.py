@@ -60,7 +60,7 @@ def judged_design(wanted: Wanted, x: Floats, pick: Pick = "widest", at: str = ""
     table = wanted.table(x[:, np.newaxis])
     found = counted(wanted, table)
     V, rate = judged(wanted, table, found, rounds=7)
-    V1, V2, lower, upper = (values[0] for values in found.intervals[:4])
+    V1, V2, lower, upper = (values[0] for values in found.intervals)
     wide = np.where(found.counts, np.minimum(V2, wanted.V_max) - V1, -1.0)[0]
     merit = wide
     if pick == "lowest":

@@ -27,7 +27,7 @@ def intervals(bicycle: Bicycle, lam: float, sigma: float) -> list[Interval]:
     ends = intervals_of(characteristic_table(bicycle, lam, sigma))
     return [
         Interval(V1, V2 if math.isfinite(V2) else None, KINDS[lower], KINDS[upper])
-        for V1, V2, lower, upper in zip(*(values.tolist() for values in ends[:4]), strict=True)
+        for V1, V2, lower, upper in zip(*(values.tolist() for values in ends), strict=True)
         if upper
     ]
 

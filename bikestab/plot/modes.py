@@ -138,7 +138,7 @@ def _stable_bands(ax: Axes, table: ExactTable) -> tuple[list[float], int]:
     found = intervals_of(table)
     edges: list[float] = []
     notes: list[tuple[float, str, str]] = []  # place from 0 to 1, preferred side, text
-    for V1, V2, lower, upper in zip(*(values[: found.number] for values in found[:4]), strict=True):
+    for V1, V2, lower, upper in zip(*(values[: found.number] for values in found), strict=True):
         digits = max(3, 2 - math.floor(math.log10(V2 - V1))) if math.inf > V2 else 3
         first = f"V₁ = {V1:.{digits}f} m/s ({KINDS[lower]})" if V1 > 0 else "stable from rest"
         last = f"V₂ = {V2:.{digits}f} m/s ({KINDS[upper]})" if math.inf > V2 else "no upper limit"

@@ -71,7 +71,7 @@ class Columns(NamedTuple):
 
     def to_bytes(self) -> bytes:
         """The columns as they are kept until the volume is written."""
-        V1, V2, lower, upper, V1_error, V2_error, marginal = self.intervals
+        V1, V2, lower, upper, V1_error, V2_error, marginal = self.intervals.arrays().values()
         V = [roots.V for roots in self.roots.values()]
         rising = [roots.rising for roots in self.roots.values()]
         out = io.BytesIO()
@@ -90,7 +90,8 @@ class Columns(NamedTuple):
         ends, kinds, stops, V, rising, *others = (np.load(file, allow_pickle=False) for _ in range(7))
         each = zip(np.split(V, stops[:-1], axis=-1), np.split(rising, len(CONDITIONS), axis=-1), strict=True)
         roots = {name: Roots(*arrays) for name, arrays in zip(CONDITIONS, each, strict=True)}
-        return cls(Intervals._make([*ends[:2], *kinds[:2], *ends[2:], kinds[2]]), roots, *others)
+        (V1, V2, V1_error, V2_error), (lower, upper, marginal) = ends, kinds
+        return cls(Intervals(V1, V2, lower, upper, V1_error, V2_error, marginal), roots, *others)
 
 
 class Finished(NamedTuple):
@@ -177,7 +178,7 @@ def _columns(table: ExactTable, exact: Critical, spread: Floats) -> Columns:
     for name in CONDITIONS:
         V = exact.speeds[name].T.reshape(*shape, len(exact.speeds[name]))
         roots[name] = Roots(V, (exact.sign[name] < 0).reshape(*shape, 1))
-    ends = Intervals._make(field.reshape(*shape, field.shape[-1]) for field in intervals)
+    ends = Intervals(*(field.reshape(*shape, field.shape[-1]) for field in intervals.arrays().values()))
     return Columns(ends, roots, undecided(exact).reshape(shape), spread)
 
 

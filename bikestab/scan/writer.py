@@ -146,7 +146,7 @@ class VolumeWriter:
         self, place: tuple[int, ...], intervals: Intervals, surfaces: dict[str, Sheets], spread: Floats
     ) -> None:
         """Put a tile's intervals, boundary surfaces and, for an ensemble, their spread into the file."""
-        for name, values in intervals._asdict().items():
+        for name, values in intervals.arrays().items():
             if name != "marginal":
                 self._write_column(name, place, values)
         self._write_designs("marginal", place, intervals.marginal[..., 0])

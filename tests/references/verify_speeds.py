@@ -259,7 +259,14 @@ def run(number: int, seed: int) -> tuple[Counter[str], list[float]]:
         counts["beside a change"] += sum(other is not None for other in beside)
         found = intervals_of(exact_table(together(machines), lam, sigma))
         for i, p in enumerate(machines):
-            check(p, lam[i], sigma[i], Intervals(*(field[i] for field in found)), counts, ratios)
+            check(
+                p,
+                lam[i],
+                sigma[i],
+                Intervals(*(field[i] for field in found.arrays().values())),
+                counts,
+                ratios,
+            )
         print(dict(counts), flush=True)
     return counts, ratios
 

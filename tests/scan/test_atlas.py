@@ -38,7 +38,7 @@ def in_tiles(name, roots, intervals, tile):
         part = np.s_[i : i + tile[0], j : j + tile[1]]
         V, rising = roots.V[part], roots.rising[part]
         V = V[..., : int(np.isfinite(V).sum(axis=-1).max(initial=0))]  # none wider than its own most
-        parts[i, j] = Roots(V, rising), Intervals(*(values[part] for values in intervals))
+        parts[i, j] = Roots(V, rising), Intervals(*(values[part] for values in intervals.arrays().values()))
         atlas.add((i, j), parts[i, j][0])
     atlas.finish()
     out = Sheets(np.full((n, m, atlas.width), -1.0), np.zeros((n, m, atlas.width), np.uint8))
@@ -105,7 +105,7 @@ def test_around_a_cusp_nothing_is_lost(tile):
     found = all_in_tiles(table, tile)
     assert_complete(table, found)
     V = found["p0"].V
-    steepest = 2 * (3 / 81) ** (1 / 3)
+    steepest = 2 * (3 / 81) ** (1 / 3) * (1 + 1e-12)  # reached at a = 0; the table's own entries are rounded
     for i in range(0, 81, tile[0]):
         for j in range(0, 82, tile[1]):
             assert largest_jump(V[i : i + tile[0], j : j + tile[1]]) < steepest

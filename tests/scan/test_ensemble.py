@@ -215,7 +215,9 @@ def fake_intervals(monkeypatch, *of_each_machine):
         for j, (a, b) in enumerate(pairs):
             V1[i, 0, j], V2[i, 0, j] = a, b
     kind = np.isfinite(V1).astype(np.uint8)
-    monkeypatch.setattr(ensemble, "intervals_of", lambda _: Intervals(V1, V2, kind, kind))
+    error = np.zeros_like(V1)
+    known = Intervals(V1, V2, kind, kind, error, error, 0 * kind)
+    monkeypatch.setattr(ensemble, "intervals_of", lambda _: known)
     drawn = Machines.drawn(Bicycle.preset("dikarev1981"), {"m1": np.linspace(60, 90, len(of_each_machine))})
 
     def statistics(V, quantiles):

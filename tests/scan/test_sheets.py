@@ -1,5 +1,7 @@
 """Exact roots in sheets: all of them, continuous where the surface is, and the edges marked."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -199,7 +201,7 @@ def test_around_a_cusp_a_sheet_goes_on_in_another_slot_and_nothing_jumps():
     assert np.all(lower[both] < upper[both])
     assert np.all(np.isfinite(lower) | np.isfinite(upper))
     # u³ = −b is the steepest: 2 (h/2)^(1/3) from −h/2 to h/2
-    steepest = 2 * (3 / 81) ** (1 / 3)
+    steepest = 2 * (3 / 81) ** (1 / 3) * (1 + 1e-12)  # the table's own entries are rounded
     assert largest_jump(V) < steepest
     assert largest_jump(critical_roots(table)["p0"].V) > 1.5  # at a fold, from one layer to the other
     # the cut is in front of the cusp, where a > 0
@@ -328,7 +330,7 @@ def test_edges_of_random_machines(machine):
 def test_edges_are_found_however_the_ends_are_rounded():
     table = plane(DIKAREV)[2]
     inside, roots = intervals_of(table), critical_roots(table)
-    off = inside._replace(V1=inside.V1 * (1 + 1e-12), V2=inside.V2 * (1 - 1e-12))
+    off = replace(inside, V1=inside.V1 * (1 + 1e-12), V2=inside.V2 * (1 - 1e-12))
     for name in ("p0", "hurwitz3"):
         exact = sheets(name, roots[name], inside).edge
         assert exact.any()
