@@ -198,11 +198,12 @@ class Bicycle:
         return cls.from_mapping(yamltext.plain(preset_text(name)) or {}, name=name)
 
     @classmethod
-    def load(cls, name_or_path: str) -> Bicycle:
-        """A preset by its name, or else the bicycle in a file."""
+    def load(cls, name_or_path: str, folder: str | Path = "") -> Bicycle:
+        """A preset by its name, or else the bicycle in a file; its path starts from ``folder``."""
         looks_like_path = "/" in name_or_path or "." in name_or_path
-        if name_or_path not in preset_names() and (looks_like_path or Path(name_or_path).is_file()):
-            return cls.from_file(name_or_path)
+        path = Path(folder, name_or_path)
+        if name_or_path not in preset_names() and (looks_like_path or path.is_file()):
+            return cls.from_file(path)
         return cls.preset(name_or_path)
 
 

@@ -45,7 +45,8 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
         data = _plain(document.data)
         data.setdefault("output", f"out/{Path(document.file).stem}")
         if "bicycle" in data:
-            data["bicycle"] = _load_bicycle(data["bicycle"], Path(document.file).parent)
+            typed = ("bicycle",) in places  # in a command, where paths start from the current folder
+            data["bicycle"] = _load_bicycle(data["bicycle"], "" if typed else Path(document.file).parent)
         try:
             return ScanConfig.model_validate(data).with_text(text)
         except ValidationError as error:
@@ -65,11 +66,10 @@ def config_schema() -> dict[str, Any]:
     return schema
 
 
-def _load_bicycle(value: object, folder: Path) -> object:
+def _load_bicycle(value: object, folder: str | Path) -> object:
     try:
         if isinstance(value, str):
-            beside = folder / value
-            return Bicycle.load(str(beside) if beside.is_file() else value)
+            return Bicycle.load(value, folder)
         if isinstance(value, dict):
             return Bicycle.from_mapping(value)
     except InputError as error:

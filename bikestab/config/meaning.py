@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from bikestab.bicycle import Bicycle
 
-_OUT_OF_EQUATIONS = {"IByy", "IHyy"}
+OUT_OF_EQUATIONS = {"IByy", "IHyy"}
 
 
 def digest(values: Mapping[str, Any]) -> str:
@@ -34,7 +34,7 @@ def _digest_of_array(values: ArrayLike) -> str:
 def drawn_around(bicycle: Bicycle) -> dict[str, Any]:
     """What samples of a bicycle's parameters are drawn around: its numbers in its own notation."""
     numbers = {"g": bicycle.g, "delta": bicycle.delta, **bicycle.given}
-    return {name: np.array(value) for name, value in numbers.items() if name not in _OUT_OF_EQUATIONS}
+    return {name: np.array(value) for name, value in numbers.items() if name not in OUT_OF_EQUATIONS}
 
 
 def yaml_text(bicycle: Bicycle, values: Mapping[str, Any]) -> str:

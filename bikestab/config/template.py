@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from pathlib import Path
 
 from bikestab.bicycle import Bicycle
+from bikestab.config.meaning import OUT_OF_EQUATIONS
+from bikestab.errors import InputError
+from bikestab.presets import preset_names
+
+_NO_ENSEMBLE = """\
+# ensemble:                     # machines drawn at random: how probable stability is at each point
+#   delta: {uniform: [0, 2]}    # or {normal: [mean, standard deviation]}; any parameters
+#   samples: 1000
+#   seed: 1"""
 
 
-def starting_config(bicycle_name: str, file: str | Path) -> str:
+def starting_config(bicycle_name: str, file: str | Path, *, uncertain: bool = False) -> str:
     """YAML text of a config for ``file``: a grid around the bicycle's own design, with remarks for the rest.
 
-    Raises InputError as ``Bicycle.load``.
+    With ``uncertain`` its measured parameters are drawn at random, each with the standard deviation that the
+    bicycle's file gives. Raises InputError as ``Bicycle.load``, and where there are no such deviations.
     """
     bicycle = Bicycle.load(bicycle_name)
     lam = 0.2 if bicycle.lam is None else bicycle.lam
@@ -23,10 +34,43 @@ def starting_config(bicycle_name: str, file: str | Path) -> str:
         "SIGMA_START": f"{min(0.0, 1.5 * sigma):.3g}",
         "SIGMA_STOP": f"{max(0.15, 1.5 * sigma):.3g}",
         "TITLE": json.dumps(f"Stable motion of {bicycle.name}", ensure_ascii=False),
-        "BICYCLE": json.dumps(bicycle_name, ensure_ascii=False),  # quoted, as any name may need it in YAML
+        "BICYCLE": json.dumps(
+            _from_its_folder(bicycle_name, file), ensure_ascii=False
+        ),  # any name may need quotes
         "OUTPUT": json.dumps(f"out/{Path(file).stem}", ensure_ascii=False),
         "LAM": f"{lam:.6g}",
         "SIGMA": f"{sigma:.6g}",
+        "ENSEMBLE": _ensemble(bicycle) if uncertain else _NO_ENSEMBLE,
     }
     text = (Path(__file__).parent / "template.yaml").read_text("utf-8")
     return re.sub("@([A-Z_]+)@", lambda match: values[match[1]], text)
+
+
+def _from_its_folder(bicycle_name: str, file: str | Path) -> str:
+    """The same bicycle as a config in ``file`` names it, whatever folder that is read from."""
+    if bicycle_name in preset_names():
+        return bicycle_name
+    folder, path = Path(file).parent.resolve(), Path(bicycle_name).resolve()
+    try:
+        found = Path(os.path.relpath(path, folder)).as_posix()
+    except ValueError:  # on another drive
+        return str(path)
+    return f"./{found}" if found in preset_names() else found
+
+
+def _ensemble(bicycle: Bicycle) -> str:
+    deviations = {name: sd for name, sd in bicycle.deviations.items() if name not in OUT_OF_EQUATIONS}
+    on_grid = [name for name in ("lam", "c", "sigma", "trail") if deviations.pop(name, None)]
+    if not deviations:
+        raise InputError(
+            f"the bicycle {bicycle.name!r} has no uncertainties to draw",
+            hint="a file has them as 'mB = 85 +/- 0.5'; or write an ensemble into the config by hand",
+        )
+    lines = [
+        "ensemble:                     # machines drawn at random, by the standard deviations of the file"
+    ]
+    lines += [f"  {name}: {{normal: [{bicycle.given[name]!r}, {sd!r}]}}" for name, sd in deviations.items()]
+    lines += ["  samples: 1000", "  seed: 1"]
+    if on_grid:
+        lines.append(f"# not drawn, as the grid has their values: {', '.join(on_grid)}")
+    return "\n".join(lines)

@@ -17,22 +17,28 @@ from bikestab_cli.options import DEFAULT_BICYCLE, NAME
     metavar="NAME|FILE",
     default=DEFAULT_BICYCLE,
     show_default=True,
-    help="The bicycle.",
+    help="A bicycle that comes with bikestab, or a file of one.",
+)
+@click.option(
+    "--uncertain",
+    is_flag=True,
+    help="Draw machines at random, by the standard deviations that the bicycle's file gives.",
 )
 @click.option("--force", is_flag=True, help="Replace an existing file.")
-def command(path: str, name: str, force: bool) -> None:
+def command(path: str, name: str, uncertain: bool, force: bool) -> None:
     """Write a commented scan config to PATH (bikestab.yaml).
 
     \b
     Examples:
       bikestab init
       bikestab init mine.yaml --bicycle meijaard2007
+      bikestab init mine.yaml --bicycle measured.txt --uncertain
     """
     from bikestab.config.template import starting_config
     from bikestab.errors import InputError
     from bikestab.files import written
 
-    text = starting_config(name, path)
+    text = starting_config(name, path, uncertain=uncertain)
     if Path(path).exists() and not force:
         raise InputError("exists already", place=path, hint="--force replaces it")
     with written(path) as part:

@@ -267,13 +267,6 @@ def test_init_with_a_bicycle_of_ones_own(bikestab):
     assert load_config("bikestab.yaml").machine.source == Bicycle.preset("meijaard2007").source
 
 
-def test_init_in_another_folder_finds_the_bicycle(bikestab):
-    Path("mine-bicycle.yaml").write_text(preset_text("meijaard2007"), "utf-8")
-    Path("deep").mkdir()
-    assert bikestab("init", "deep/a.yaml", "--bicycle", "mine-bicycle.yaml")[0] == 0
-    assert load_config("deep/a.yaml").machine.m1 > 0
-
-
 def test_init_keeps_what_is_there(bikestab):
     Path("bikestab.yaml").write_text("mine")
     mistake(bikestab("init"), "bikestab.yaml: exists already\n  --force replaces it")

@@ -1,0 +1,51 @@
+"""bikestab init: which bicycle the config names, and its uncertainties."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from bikestab.bicycle import Bicycle
+from bikestab.config.file import load_config
+from bikestab.presets import preset_text
+
+
+@pytest.mark.parametrize(
+    "given", ["mine.yaml", "./mine.yaml", "deep/../mine.yaml", "{here}/mine.yaml", "./sharp1971"]
+)
+def test_init_names_the_same_bicycle_from_everywhere(bikestab, monkeypatch, given):
+    """Not the one of that name beside the config, nor a preset, nor what is in the current folder later."""
+    here = Path.cwd()
+    Path("deep").mkdir()
+    Path("other").mkdir()
+    for path, mass in ((given.format(here=here), 91), ("deep/mine.yaml", 92), ("other/mine.yaml", 93)):
+        Path(path).write_text(preset_text("meijaard2007").replace("mB: 85", f"mB: {mass}"), "utf-8")
+    assert bikestab("init", "deep/a.yaml", "--bicycle", given.format(here=here))[0] == 0
+    assert bikestab("init", "b.yaml", "--bicycle", given.format(here=here))[0] == 0
+    for folder in (here, here / "deep", here / "other"):
+        monkeypatch.chdir(folder)
+        assert load_config(here / "deep/a.yaml").machine.m1 == 93
+        assert load_config(os.path.relpath(here / "b.yaml")).machine.m1 == 93
+    moved = here / "other/b.yaml"
+    moved.write_text((here / "b.yaml").read_text())
+    monkeypatch.chdir(here)
+    if given != "./sharp1971":  # a path from the config's folder, never from the current one
+        assert load_config(moved).machine.m1 == 95
+
+
+def test_init_with_uncertainties(bikestab):
+    lines = [
+        f"{name} = {value!r}+/-{abs(value) / 100!r}\n"
+        for name, value in Bicycle.preset("meijaard2007").given.items()
+    ]
+    Path("measured.txt").write_text("".join(lines))
+    assert bikestab("init", "mine.yaml", "--bicycle", "measured.txt", "--uncertain")[0] == 0
+    config = load_config("mine.yaml")
+    drawn = {name: one.normal for name, one in config.ensemble.parameters.items()}
+    fixed = {"lam", "c", "IByy", "IHyy"}  # the grid's, and what is in no equation
+    assert drawn == {k: (v, abs(v) / 100) for k, v in config.bicycle.given.items() if k not in fixed}
+    text = Path("mine.yaml").read_text("utf-8")
+    assert "not drawn, as the grid has their values: lam, c" in text
+    code, out, err = bikestab("init", "b.yaml", "--bicycle", "meijaard2007", "--uncertain")
+    assert (code, out) == (2, "")
+    assert "the bicycle 'meijaard2007' has no uncertainties to draw" in err
