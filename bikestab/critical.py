@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.certain import Zeros, square_roots, zero_of_linear, zeros_of, zeros_of_quadratic
+from bikestab import certain
+from bikestab.certain import Zeros, square_roots, zero_of_linear, zeros_of
+from bikestab.corrected import (
+    Coefficients,
+    Entries,
+    hurwitz3_at,
+    p1_at,
+    zero_of_even,
+    zeros_between,
+    zeros_of_quadratic,
+)
 from bikestab.model import ExactTable, Floats
-from bikestab.polynomials import Polynomial
 from bikestab.rounding import ENTRY
-from bikestab.routh import CONDITIONS, Rows, hurwitz3_of
-from bikestab.twofold import Twofold
+from bikestab.routh import CONDITIONS, hurwitz3_of
+from bikestab.twofold import Double, Twofold
+
+T = TypeVar("T", Twofold, Double)
 
 _CHUNK = 1 << 13  # cells worked on at a time, so that their temporaries fit the cache
-_MODERATE = 60  # binary exponents of entries whose products by three and four stay in range
-_EVEN = ((4, 0), (3, 1), (2, 0), (2, 2), (1, 1), (1, 3), (0, 0), (0, 2))  # entries without damping
+_LARGE = 2.0**60  # of entries whose products by three and four stay in range
+_EVEN = ((0, 0), (0, 2), (1, 1), (1, 3), (2, 0), (2, 2), (3, 1), (4, 0))  # entries without damping
 _DAMPED = (*_EVEN, (3, 0), (1, 0))
 
 
@@ -54,7 +65,7 @@ def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS) -> C
         found = [part[name][0] for part in parts]
         most = max(int(np.isfinite(each.V).any(axis=1).sum()) for each in found)
         columns = [
-            np.concatenate([_rows(values, most) for values in each], axis=1).reshape(most, *shape)
+            np.concatenate([_rows_of(values, most) for values in each], axis=1).reshape(most, *shape)
             for each in zip(*((z.V, z.rest, z.radius) for z in found), strict=True)
         ]
         sure = np.concatenate([each.sure for each in found])
@@ -86,72 +97,121 @@ def _critical_of(table: ExactTable, names: Sequence[str]) -> dict[str, tuple[Zer
     found: dict[str, list[tuple[NDArray[np.bool_], Zeros, Floats]]] = {name: [] for name in names}
     for solve, chosen in groups:
         if chosen.any():
-            part = table if chosen.all() else table.cells(chosen)
-            rows, unit = _scaled(part, solve is _even)
+            entries, unit = _scaled(table if chosen.all() else table.cells(chosen), solve)
             for name in names:
-                zeros, polynomial = solve(rows, name, len(unit))
-                found[name].append((chosen, zeros.scaled(unit), _sign_near_zero(polynomial, len(unit))))
+                zeros, polynomial = solve(entries, name, int(np.count_nonzero(chosen)))
+                zeros = zeros if unit is None else zeros.scaled(unit)
+                found[name].append((chosen, zeros, _sign_near_zero(polynomial, len(zeros.sure))))
     return {name: _together(each, number) for name, each in found.items()}
 
 
-def _scaled(table: ExactTable, closed: bool) -> tuple[Rows, Floats]:
+def _scaled(table: ExactTable, solve: Any) -> tuple[Entries, Floats | None]:
     """The entries in units of speed, time and size that bring p4, q0 and k near one, and the unit of speed.
 
-    The units are powers of two, so that no bit changes: they keep products in range. In ``closed`` forms,
+    The units are powers of two, so that no bit changes: they keep products in range. In closed forms,
     where intervals to be cut do not depend on them, entries that are in range already stay as they are.
     """
-    exponent = np.frexp(table.value)[1]
-    if closed and np.abs(exponent).max(initial=0) < _MODERATE:
-        rows = [
-            [Twofold(table.value[i, j], table.rest[i, j], table.error[i, j] / ENTRY) for j in range(4)]
-            for i in range(5)
-        ]
-        return rows, np.ones(table.shape[-1])
-    p4, k, q0 = (np.clip(exponent[index], -300, 300) for index in ((4, 0), (3, 1), (2, 0)))
-    time = (q0 - p4) // 2
-    speed = np.clip(p4 + time - k, -200, 200)
-    nothing = Twofold(zero := np.zeros(len(p4)), zero, zero)
-    rows = [[nothing] * 4 for _ in range(5)]
-    for i, j in np.argwhere(table.error.any(axis=-1)).tolist():
-        unit = np.ldexp(1.0, time * (i - 4) + speed * j - p4)
-        value, rest, error = (each[i, j] * unit for each in table)
-        rows[i][j] = Twofold(value, rest, error / ENTRY)
-    return rows, np.ldexp(1.0, speed)
+    used = _EVEN if solve is _even else _DAMPED if solve is _damped else [*np.ndindex(5, 4)]
+    if solve is _even and all(_moderate(table.value[key]) for key in used):
+        units = dict.fromkeys(used, 1.0)
+        speed = None
+    else:
+        p4, k, q0 = (np.clip(np.frexp(table.value[key])[1], -300, 300) for key in ((4, 0), (3, 1), (2, 0)))
+        time = (q0 - p4) // 2
+        exponent = np.clip(p4 + time - k, -200, 200)
+        units = {(i, j): np.ldexp(1.0, time * (i - 4) + exponent * j - p4) for i, j in used}
+        speed = np.ldexp(1.0, exponent)
+    numbers = {}
+    for key, unit in units.items():
+        value, rest, error = (each[key] if speed is None else each[key] * unit for each in table)
+        numbers[key] = Twofold(value, rest, error / ENTRY)
+    return Entries(numbers), speed
 
 
-def _even(rows: Rows, name: str, number: int) -> tuple[Zeros, Polynomial]:
+def _moderate(a: Floats) -> bool:
+    """Whether products of three or four of these numbers are in range."""
+    size = np.abs(a)
+    return bool(np.all((size < _LARGE) & ((size > 1 / _LARGE) | (size == 0))))
+
+
+def _even(entries: Entries, name: str, number: int) -> tuple[Zeros, Sequence[Twofold | Double | None]]:
     """Without damping: p0, p2, p1/V and hurwitz3/V² in V²."""
-    p0, p1, p2, p3, p4 = rows
-    f0, f, e0, e, q0, q, k, m = p0[0], p0[2], p1[1], p1[3], p2[0], p2[2], p3[1], p4[0]
+    numbers = entries.numbers
     if name == "hurwitz3":
-        slow, fast = q0 * k - m * e0, q * k - m * e
-        square = k * k
-        w = [e0 * slow - f0 * square, e0 * fast + e * slow - f * square, e * fast]
-        return square_roots(zeros_of_quadratic(*w)), list(w)
-    a, b = {"p0": (f0, f), "p1": (e0, e), "p2": (q0, q)}.get(name, (None, None))
-    if a is None or b is None:
-        return _none(number), [k if name == "p3" else m]
-    return square_roots(zero_of_linear(a, b)), [a, b]
+        w = _hurwitz3_even({key: entries.double(*key) for key in numbers})
+        zeros = zeros_of_quadratic(entries, w)
+        return _again(zeros, entries, _fine_even), w
+    if name in ("p3", "p4"):
+        return _none(number), [numbers[(3, 1) if name == "p3" else (4, 0)]]
+    a, b = {"p0": ((0, 0), (0, 2)), "p1": ((1, 1), (1, 3)), "p2": ((2, 0), (2, 2))}[name]
+    return zero_of_even(numbers[a], numbers[b]), [numbers[a], numbers[b]]
 
 
-def _damped(rows: Rows, name: str, number: int) -> tuple[Zeros, Polynomial]:
+def _hurwitz3_even(n: dict[tuple[int, int], T]) -> list[T]:
+    """Hurwitz3/V² without damping as a polynomial in V²."""
+    f0, f, e0, e, q0, q, k, m = (n[key] for key in _EVEN)
+    slow, fast = q0 * k - m * e0, q * k - m * e
+    square = k * k
+    return [e0 * slow - f0 * square, e0 * fast + e * slow - f * square, e * fast]
+
+
+def _fine_even(entries: Entries, number: int) -> Zeros:
+    return square_roots(certain.zeros_of_quadratic(*_hurwitz3_even(entries.numbers)))
+
+
+def _damped(entries: Entries, name: str, number: int) -> tuple[Zeros, Sequence[Twofold | Double | None]]:
     """With damping p3 and p1 have both even and odd powers of V, and hurwitz3 is of degree 6."""
     if name in ("p0", "p2", "p4"):
-        return _even(rows, name, number)
-    _, p1, _, p3, _ = rows
+        return _even(entries, name, number)
+    n = entries.numbers
     if name == "p3":
-        return zero_of_linear(p3[0], p3[1]), [p3[0], p3[1]]
-    polynomial: Polynomial = [p1[0], p1[1], None, p1[3]] if name == "p1" else hurwitz3_of(rows, _DAMPED)
-    return zeros_of(polynomial, number), polynomial
+        return zero_of_linear(n[3, 0], n[3, 1]), [n[3, 0], n[3, 1]]
+    doubles = {key: entries.double(*key) for key in n}
+    if name == "p1":
+        c: Coefficients = [doubles[1, 0], doubles[1, 1], None, doubles[1, 3]]
+        zeros = zeros_between(entries, c, p1_at, number)
+        return _again(zeros, entries, _fine_p1), c
+    c = hurwitz3_of(_rows(doubles))
+    return _again(zeros_between(entries, c, hurwitz3_at, number), entries, _fine_hurwitz3), c
 
 
-def _any(rows: Rows, name: str, number: int) -> tuple[Zeros, Polynomial]:
+def _fine_p1(entries: Entries, number: int) -> Zeros:
+    n = entries.numbers
+    return zeros_of([n[1, 0], n[1, 1], None, n[1, 3]], number)
+
+
+def _fine_hurwitz3(entries: Entries, number: int) -> Zeros:
+    return zeros_of(hurwitz3_of(_rows(entries.numbers)), number)
+
+
+def _again(zeros: Zeros, entries: Entries, fine: Callable[[Entries, int], Zeros]) -> Zeros:
+    """With the cells that are not sure done in twice double precision throughout."""
+    if zeros.sure.all():
+        return zeros
+    poor = np.flatnonzero(~zeros.sure)
+    better = fine(entries.at(poor), len(poor))
+    most = max(len(zeros.V), len(better.V))
+    each = [_rows_of(values, most).copy() for values in zeros[:3]]
+    for values, new in zip(each, better[:3], strict=True):
+        values[:, poor] = _rows_of(new, most)
+    sure = zeros.sure.copy()
+    sure[poor] = better.sure
+    return Zeros(each[0], each[1], each[2], sure)
+
+
+def _any(entries: Entries, name: str, number: int) -> tuple[Zeros, Sequence[Twofold | Double | None]]:
     """Tables of other systems, with any powers of V."""
-    polynomial: Polynomial = hurwitz3_of(rows) if name == "hurwitz3" else list(rows[CONDITIONS.index(name)])
+    rows = _rows(entries.numbers)
+    polynomial = hurwitz3_of(rows) if name == "hurwitz3" else rows[CONDITIONS.index(name)]
     return zeros_of(polynomial, number), polynomial
 
 
-def _sign_near_zero(polynomial: Polynomial, number: int) -> Floats:
+def _rows(numbers: dict[tuple[int, int], T]) -> list[list[T | None]]:
+    """Entries as p0 … p4, polynomials in V."""
+    return [[numbers.get((k, j)) for j in range(4)] for k in range(5)]
+
+
+def _sign_near_zero(polynomial: Sequence[Twofold | Double | None], number: int) -> Floats:
     """The sign just right of zero."""
     sign = np.zeros(number)
     for a in polynomial:
@@ -177,7 +237,7 @@ def _together(parts: list[tuple[NDArray[np.bool_], Zeros, Floats]], number: int)
     return Zeros(out[0], out[1], out[2], sure), sign
 
 
-def _rows(values: Floats, most: int) -> Floats:
+def _rows_of(values: Floats, most: int) -> Floats:
     """So many rows, filled up with NaN, or without some that are NaN."""
     missing = most - len(values)
     if missing <= 0:

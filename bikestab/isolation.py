@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
-from bikestab.rounding import CUT
-from bikestab.twofold import Twofold
+from bikestab.rounding import CUT, POLYNOMIAL
+from bikestab.twofold import Double, Twofold
 
 _Indices = NDArray[np.intp]
 _Flags = NDArray[np.bool_]
-_MIDDLE = 1.375  # M, where the axis is cut first: no root of a polynomial that somebody wrote down
+_MIDDLES = 1.375, 1.28125  # M, where the axis is cut first; the second one where a zero lies on the first
 _MANY = 16  # intervals of a cell that are undecided at a time: it is zero to rounding in a whole range
 _DEPTH = 100  # cuts: an eighth of what begins at zero, half of other intervals
 _NARROW = 2.0**-20, 2.0**-49  # relative width at which double, and twice double precision gives up
@@ -55,34 +55,41 @@ def brackets(coefficients: Sequence[Twofold | None], number: int, error: float) 
 
     A coefficient's ``error`` is relative to its size.
     """
-    first, undecided = _isolated(coefficients, np.arange(number), error, plain=True)
-    sure = np.ones(number, bool)
-    if not undecided.any():
-        return first, sure
-    again = np.flatnonzero(undecided)
-    some = [None if a is None else a.at(again) for a in coefficients]
-    second, unsure = _isolated(some, np.arange(len(again)), error, plain=False)
-    sure[again] = ~unsure
-    kept = ~undecided[first.cell]
-    second = second._replace(cell=again[second.cell])
-    return Brackets(*(np.concatenate([a[kept], b]) for a, b in zip(first, second, strict=True))), sure
+    size = [None if a is None else Double(a.value, a.size) for a in coefficients]
+    found, undecided = isolated(size, number)
+    for middle in _MIDDLES:
+        again = np.flatnonzero(undecided)
+        if not len(again):
+            break
+        some = [a and a.at(again) for a in coefficients]
+        work = _halves(some, len(again), middle)
+        more, unsure = _isolated(work, len(again), middle, 16 * error, _NARROW[1])
+        kept = ~undecided[found.cell]
+        more = more._replace(cell=again[more.cell])
+        found = Brackets(*(np.concatenate([a[kept], b]) for a, b in zip(found, more, strict=True)))
+        undecided[again] = unsure
+    return found, ~undecided
+
+
+def isolated(coefficients: Sequence[Double | None], number: int) -> tuple[Brackets, _Flags]:
+    """As ``brackets``, in double precision: and which cells it leaves undecided."""
+    work = _plain_halves(coefficients, number, _MIDDLES[0])
+    return _isolated(work, number, _MIDDLES[0], CUT, _NARROW[0])
 
 
 def _isolated(
-    coefficients: Sequence[Twofold | None], cells: _Indices, error: float, *, plain: bool
+    work: _Work, number: int, middle: float, share: float, narrow: float
 ) -> tuple[Brackets, _Flags]:
     """The intervals, and which cells are undecided."""
-    share, narrow = (CUT, _NARROW[0]) if plain else (16 * error, _NARROW[1])
-    work = _halves(coefficients, cells, error / CUT if plain else None)
-    undecided = np.zeros(len(cells), bool)
+    undecided = np.zeros(number, bool)
     found = []
     for _ in range(_DEPTH):
         changes, clear, end = _sign_changes(work, share)
         one = clear & (changes == 1)
-        found.append(_bracket_of(work.chosen(one), end[one]))
+        found.append(_bracket_of(work, one, end, middle))
         open_ = ~clear | (changes > 1)
         undecided[work.cell[open_ & (work.high - work.low <= narrow * work.high)]] = True
-        undecided |= np.bincount(work.cell[open_], minlength=len(cells)) > _MANY
+        undecided |= np.bincount(work.cell[open_], minlength=number) > _MANY
         open_ &= ~undecided[work.cell]
         if not open_.any():
             break
@@ -92,38 +99,52 @@ def _isolated(
     return Brackets(*(np.concatenate(each) for each in zip(*found, strict=True))), undecided
 
 
-def _halves(coefficients: Sequence[Twofold | None], cells: _Indices, least: float | None) -> _Work:
-    """0 < x ≤ 1 of V = M x and of V = M/x; in double precision where a ``least`` share of sizes is given."""
-    if least is not None:
-        coefficients = [c and Twofold(c.value, 0.0, np.abs(c.value) + least * c.size) for c in coefficients]
-    n = len(coefficients) - 1
-    rows, zeros = [], np.zeros(len(cells))
+def _factors(n: int, i: int) -> list[float]:
+    """Of the powers in the i-th Bernstein coefficient of 0 … 1, times what makes whole numbers of all."""
     multiple = lcm(*(comb(n, j) for j in range(n + 1)))
+    return [float(comb(i, j) * multiple // comb(n, j)) for j in range(i + 1)]
+
+
+def _halves(coefficients: Sequence[Twofold | None], number: int, middle: float) -> _Work:
+    """0 < x ≤ 1 of V = M x and of V = M/x."""
+    n = len(coefficients) - 1
+    rows, zeros = [], np.zeros(number)
     for inverse in (False, True):
-        a = [c and _multiple(c, _MIDDLE**j, least) for j, c in enumerate(coefficients)]
-        a = a[::-1] if inverse else a
+        a = [c and c * middle**j for j, c in enumerate(coefficients)][:: -1 if inverse else 1]
         for i in range(n + 1):
-            total = Twofold(zeros, 0.0, zeros)
-            for j, x in enumerate(a[: i + 1]):
+            total = Twofold(zeros, zeros, zeros)
+            for x, factor in zip(a, _factors(n, i), strict=False):
                 if x is not None:
-                    term = _multiple(x, float(comb(i, j) * multiple // comb(n, j)), least)
-                    total = _total(total, term, least)
+                    total = total + x * factor
             rows.append(total)
-    whole = [Twofold(*(getattr(row, name) + zeros for name in ("value", "rest", "size"))) for row in rows]
-    b = _beside([_stacked(whole[: n + 1]), _stacked(whole[n + 1 :])])
-    if least is not None:
-        b = Twofold(b.value, None, b.size)
-    both = np.concatenate([cells, cells])
-    ends = np.zeros(len(both)), np.ones(len(both))
-    return _Work(both, np.arange(len(both)) >= len(cells), *ends, b)
+    b = _beside([_stacked(rows[: n + 1]), _stacked(rows[n + 1 :])])
+    return _whole(b, number)
 
 
-def _multiple(a: Twofold, factor: float, least: float | None) -> Twofold:
-    return a * factor if least is None else Twofold(a.value * factor, 0.0, a.size * factor)
+def _plain_halves(coefficients: Sequence[Double | None], number: int, middle: float) -> _Work:
+    """``_halves`` in double precision; sizes such that CUT of them covers the coefficients' errors too."""
+    n = len(coefficients) - 1
+    value, size = np.zeros((2, n + 1, 2 * number))
+    for inverse, here in ((False, slice(number)), (True, slice(number, None))):
+        a = [
+            None
+            if c is None
+            else (c.value * middle**j, (np.abs(c.value) + POLYNOMIAL / CUT * c.size) * middle**j)
+            for j, c in enumerate(coefficients)
+        ][:: -1 if inverse else 1]
+        for i in range(n + 1):
+            for x, factor in zip(a, _factors(n, i), strict=False):
+                if x is not None:
+                    value[i, here] += x[0] * factor
+                    size[i, here] += x[1] * factor
+    return _whole(Twofold(value, None, size), number)
 
 
-def _total(a: Twofold, b: Twofold, least: float | None) -> Twofold:
-    return a + b if least is None else Twofold(a.value + b.value, 0.0, a.size + b.size)
+def _whole(b: Twofold, number: int) -> _Work:
+    """The intervals 0 … 1 of x, of all cells and both ways round."""
+    cell = np.arange(2 * number) % max(number, 1)
+    ends = np.zeros(2 * number), np.ones(2 * number)
+    return _Work(cell, np.arange(2 * number) >= number, *ends, b)
 
 
 def _sign_changes(work: _Work, share: float) -> tuple[_Indices, _Flags, Floats]:
@@ -137,17 +158,20 @@ def _sign_changes(work: _Work, share: float) -> tuple[_Indices, _Flags, Floats]:
         before[i] = np.where(sign[i - 1] == 0, before[i - 1], sign[i - 1])
         changes += before[i] * sign[i] < 0
         after[-1 - i] = np.where(sign[-i] == 0, after[-i], sign[-i])
-    # between different signs there is one change, whatever an uncertain coefficient is
-    clear = ~np.any(uncertain & (before * after >= 0), axis=0)
+    # between different signs there is one change, whatever a single uncertain coefficient is
+    alone = before * after < 0
+    alone[1:] &= ~uncertain[:-1]
+    clear = ~np.any(uncertain & ~alone, axis=0)
     first, last = np.where(sign[0] == 0, after[0], sign[0]), np.where(sign[-1] == 0, before[-1], sign[-1])
     return changes, clear, np.where(work.inverse, first, last)
 
 
-def _bracket_of(work: _Work, sign: Floats) -> Brackets:
+def _bracket_of(work: _Work, which: _Flags, sign: Floats, middle: float) -> Brackets:
+    inverse, x_low, x_high = work.inverse[which], work.low[which], work.high[which]
     with np.errstate(divide="ignore"):
-        low = np.where(work.inverse, _MIDDLE / work.high, _MIDDLE * work.low)
-        high = np.where(work.inverse, _MIDDLE / work.low, _MIDDLE * work.high)
-    return Brackets(work.cell, low, high, sign)
+        low = np.where(inverse, middle / x_high, middle * x_low)
+        high = np.where(inverse, middle / x_low, middle * x_high)
+    return Brackets(work.cell[which], low, high, sign[which])
 
 
 def _cut(work: _Work, share: float) -> _Work:

@@ -6,13 +6,16 @@ A polynomial is an array of coefficients of x^0, x^1, … along the first axis, 
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.rounding import PRODUCTS
-from bikestab.twofold import Twofold
+from bikestab.twofold import Double, Twofold
+
+T = TypeVar("T", Twofold, Double)
 
 Polynomial = list[Twofold | None]  # coefficients of V^0, V^1, …; None where it is zero in all cells
 
@@ -34,9 +37,9 @@ def value_and_slope(c: Floats, x: Floats) -> tuple[Floats, Floats]:
     return out, slope
 
 
-def product_of(a: Polynomial, b: Polynomial) -> Polynomial:
-    """The product of polynomials in twice double precision; powers that none can have stay so."""
-    out: Polynomial = [None] * (len(a) + len(b) - 1)
+def product_of(a: list[T | None], b: list[T | None]) -> list[T | None]:
+    """The product of polynomials of numbers with sizes; powers that none can have stay so."""
+    out: list[T | None] = [None] * (len(a) + len(b) - 1)
     for i, x in enumerate(a):
         for j, y in enumerate(b):
             if x is not None and y is not None:
@@ -47,9 +50,9 @@ def product_of(a: Polynomial, b: Polynomial) -> Polynomial:
     return out
 
 
-def difference_of(a: Polynomial, b: Polynomial) -> Polynomial:
-    """A − b of polynomials in twice double precision."""
-    out: Polynomial = []
+def difference_of(a: list[T | None], b: list[T | None]) -> list[T | None]:
+    """A − b of polynomials of numbers with sizes."""
+    out: list[T | None] = []
     for i in range(max(len(a), len(b))):
         x, y = (p[i] if i < len(p) else None for p in (a, b))
         out.append(x if y is None else -y if x is None else x - y)

@@ -11,7 +11,14 @@ ENTRY = 2.0**-95
 # A coefficient of a condition as a polynomial in V: a product of three entries, and some operations.
 COEFFICIENT = 2.0**-92
 
-# Double precision. A value of p0 … p4 at a speed, and a slope of a condition.
+# A value of a condition in twice double precision; the size of an entry is then itself and 2^80 of its error.
+CLOSE = 2.0**-80
+CONDITION_AT = 4 * CLOSE  # three entries, and operations that do not count beside them
+
+# Double precision. A coefficient of a condition as a polynomial in V: a product of three entries, which are
+# rounded themselves, and up to ten more roundings.
+POLYNOMIAL = 2.0**-49
+# A value of p0 … p4 at a speed, and a slope of a condition.
 VALUE = 2.0**-50
 SLOPE = 2.0**-48
 # A Bernstein coefficient after all cuts, relative to the mean sizes of the terms.

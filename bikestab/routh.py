@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.model import Floats
-from bikestab.polynomials import Polynomial, difference_of, product_of, value_of_powers
-from bikestab.twofold import Twofold
+from bikestab.polynomials import difference_of, product_of, value_of_powers
+from bikestab.twofold import Double, Twofold
 
-Rows = list[list[Twofold]]
+T = TypeVar("T", Twofold, Double)
 CONDITIONS = ("p0", "p1", "p2", "p3", "p4", "hurwitz3")  # bit k of ``violated`` is CONDITIONS[k]
 
 
@@ -80,8 +80,8 @@ def condition_polynomials(table: Floats) -> dict[str, Floats]:
     is left of it is right.
     """
     p0, p1, p2, p3, p4 = table
-    entries = [(k, j) for k in range(5) for j in range(4) if table[k, j].any()]
-    found = hurwitz3_of([[Twofold(a) for a in row] for row in table], entries)
+    rows = [[Twofold(a) if a.any() else None for a in row] for row in table]
+    found = hurwitz3_of(rows)
     hurwitz3 = np.zeros((10, *table.shape[2:]))
     for j, a in enumerate(found):
         if a is not None:
@@ -89,11 +89,8 @@ def condition_polynomials(table: Floats) -> dict[str, Floats]:
     return {"p0": p0, "p1": p1, "p2": p2, "p3": p3, "p4": p4, "hurwitz3": hurwitz3}
 
 
-def hurwitz3_of(rows: Rows, entries: Sequence[tuple[int, int]] | None = None) -> Polynomial:
-    """p1 (p2 p3 − p4 p1) − p0 p3² as a polynomial in V, from a table's entries (k, j) that there can be."""
-    p0, p1, p2, p3, p4 = (
-        [a if entries is None or (k, j) in entries else None for j, a in enumerate(row)]
-        for k, row in enumerate(rows)
-    )
+def hurwitz3_of(rows: Sequence[list[T | None]]) -> list[T | None]:
+    """p1 (p2 p3 − p4 p1) − p0 p3² as a polynomial in V, from p0 … p4 as such."""
+    p0, p1, p2, p3, p4 = rows
     inner = difference_of(product_of(p2, p3), product_of(p4, p1))
     return difference_of(product_of(p1, inner), product_of(p0, product_of(p3, p3)))
