@@ -17,6 +17,7 @@ from bikestab.errors import InputError, nearest
 from bikestab.limits import check_product, check_tilt, check_trail, check_value, part_warnings
 from bikestab.notation import MEIJAARD, OPTIONAL, two_parts
 from bikestab.presets import preset_names, preset_text
+from bikestab.texts import is_file
 from bikestab.units import ANGLE, PURE, quantity, shown
 
 
@@ -202,7 +203,7 @@ class Bicycle:
         """A preset by its name, or else the bicycle in a file; its path starts from ``folder``."""
         looks_like_path = "/" in name_or_path or "." in name_or_path
         path = Path(folder, name_or_path)
-        if name_or_path not in preset_names() and (looks_like_path or path.is_file()):
+        if name_or_path not in preset_names() and (looks_like_path or is_file(path)):
             return cls.from_file(path)
         return cls.preset(name_or_path)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from bikestab.errors import InputError
+from bikestab.texts import read_text
 from bikestab.units import shown
 
 _PLAIN = re.compile(  # one entry of what ``plain`` reads
@@ -51,21 +52,6 @@ class Document:
 def read(path: str | Path) -> Document:
     """Read and parse the YAML file at ``path``; InputError if it cannot be read or is no mapping."""
     return parse(read_text(path), str(path))
-
-
-def read_text(path: str | Path) -> str:
-    """The text of the file at ``path``; InputError if it cannot be read."""
-    file = str(path)
-    try:
-        return Path(path).read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise InputError("there is no such file", place=file, hint=_neighbours(Path(path))) from None
-    except IsADirectoryError:
-        raise InputError("is a folder, not a YAML file", place=file) from None
-    except UnicodeDecodeError:
-        raise InputError("is not a text file in UTF-8", place=file) from None
-    except OSError as error:
-        raise InputError(f"cannot be read ({error.strerror})", place=file) from None
 
 
 def parse(text: str, file: str) -> Document:
@@ -123,11 +109,3 @@ def plain(text: str) -> dict[str, int | float | str] | None:
         elif entry["key"]:
             values[entry["key"]] = entry["word"] or entry["lines"][2:-1].replace("\n  ", " ")
     return values if text.replace("\n", "").isprintable() else None  # YAML refuses control characters
-
-
-def _neighbours(path: Path) -> str:
-    folder = path.parent
-    if not folder.is_dir():
-        return f"the folder {str(folder)!r} does not exist either"
-    names = sorted(p.name for p in folder.iterdir() if p.suffix in {".yaml", ".yml"})[:8]
-    return f"YAML files in {str(folder)!r}: {', '.join(names) or 'none'}"

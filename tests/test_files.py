@@ -2,11 +2,14 @@
 
 import os
 import re
+import threading
+from importlib import import_module
+from pathlib import Path
 
 import pytest
 
 from bikestab.errors import InputError, ScanError
-from bikestab.files import NO_SPACE, unwritable, written
+from bikestab.files import NO_SPACE, check_writable, to_stdout, unwritable, written
 
 
 def test_the_file_appears_when_it_is_whole(tmp_path):
@@ -68,3 +71,112 @@ def test_the_disks_failure_is_nobodys_mistake():
         assert isinstance(unwritable("a", OSError(number, "")), ScanError)
     assert isinstance(unwritable("a", OSError(5, "Input/output error")), ScanError)
     assert isinstance(unwritable("a", PermissionError(13, "Permission denied")), InputError)
+
+
+def put(path, text="new"):
+    with written(path) as part:
+        part.write_text(text)
+
+
+def test_the_file_keeps_its_mode(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("old")
+    path.chmod(0o640)
+    put(path)
+    assert (path.read_text(), path.stat().st_mode & 0o777) == ("new", 0o640)
+
+
+@pytest.mark.parametrize("there", [True, False], ids=["to a file", "dangling"])
+def test_a_link_stays_one(tmp_path, there):
+    link, target = tmp_path / "link.csv", tmp_path / "folder" / "a.csv"
+    target.parent.mkdir()
+    if there:
+        target.write_text("old")
+    link.symlink_to(Path("folder/a.csv"))
+    put(link)
+    assert link.is_symlink()
+    assert target.read_text() == "new"
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["a.csv", "folder", "link.csv"]
+
+
+def test_links_that_lead_nowhere(tmp_path):
+    for name, target in (("loop", "loop"), ("none", "no/where")):
+        (tmp_path / name).symlink_to(target)
+        for act in (put, check_writable):
+            with pytest.raises(InputError, match=rf"{name}: cannot be written \("):
+                act(tmp_path / name)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["loop", "none"]
+
+
+def test_a_file_that_may_not_be_written(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("old")
+    path.chmod(0o444)
+    if os.access(path, os.W_OK):
+        pytest.skip("this user may write everything")
+    with pytest.raises(InputError, match="Permission denied"):
+        put(path)
+    assert path.read_text() == "old"
+
+
+def test_a_pipe_is_written_into(tmp_path):
+    pipe, got = tmp_path / "pipe", []
+    os.mkfifo(pipe)
+    reader = threading.Thread(target=lambda: got.append(pipe.read_text()))
+    reader.start()
+    put(pipe, 100_000 * "long ")
+    reader.join(10)
+    assert got == [100_000 * "long "]
+    assert pipe.is_fifo()
+    assert list(tmp_path.iterdir()) == [pipe]
+
+
+def test_a_pipe_that_nobody_reads(tmp_path, monkeypatch):
+    monkeypatch.setattr(import_module("bikestab.files"), "PATIENCE", 0.1)
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(InputError, match=r"pipe: cannot be written \(nobody opened it for reading within"):
+        put(tmp_path / "pipe")
+    assert (tmp_path / "pipe").is_fifo()
+
+
+@pytest.mark.parametrize(("name", "error"), [("null", None), ("full", "the disk is full")])
+def test_devices_stay(tmp_path, name, error):
+    """Real ones: a link leads to them, so that a mistake would replace no more than the link."""
+    link = tmp_path / "device"
+    if not Path(f"/dev/{name}").is_char_device():
+        pytest.skip("not there")
+    link.symlink_to(f"/dev/{name}")
+    if error:
+        with pytest.raises(ScanError, match=error):
+            put(link)
+    else:
+        put(link)
+    assert link.is_symlink()
+    assert link.is_char_device()
+    assert list(tmp_path.iterdir()) == [link]
+
+
+def test_an_open_file_of_the_shell(tmp_path):
+    """Like ``program --csv /dev/fd/N N>>log``: it goes on where the file ends, and is not replaced."""
+    log = tmp_path / "log"
+    log.write_text("begin ")
+    with log.open("a") as open_, log.open() as reader:
+        put(f"/dev/fd/{open_.fileno()}")
+        assert reader.read() == "begin new"
+        assert not to_stdout(log)
+    with pytest.raises(InputError, match="cannot be written"):
+        put("/dev/fd/9999")
+
+
+def test_names_that_no_file_has():
+    for act in (put, check_writable):
+        with pytest.raises(InputError, match="no file has such a name"):
+            act("a\0b")
+
+
+def test_other_mistakes_stay_what_they_are(tmp_path):
+    with pytest.raises(ValueError, match=r"^odd$"), written(tmp_path / "a"):
+        raise ValueError("odd")
+    with pytest.raises(BrokenPipeError), written(tmp_path / "a"):  # whose reader has had enough
+        raise BrokenPipeError
+    assert list(tmp_path.iterdir()) == []

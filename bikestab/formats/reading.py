@@ -11,6 +11,7 @@ from bikestab.errors import InputError, nearest
 from bikestab.formats import equalities
 from bikestab.formats.extras import without_extras
 from bikestab.formats.found import Found
+from bikestab.texts import read_text
 
 ENDINGS = (".yaml", ".yml", ".txt", ".ini")
 WORDS = ("parameterization", "parameters", "rider", "description")  # beside ``values`` in a parameter set
@@ -19,7 +20,7 @@ Located: TypeAlias = Callable[[InputError], InputError]
 
 def read(path: str | Path) -> Found:
     """The parameters in the file at ``path``; InputError names file, line, key and value."""
-    text = yamltext.read_text(path)
+    text = read_text(path)
     file = str(path)
     return _from_equalities(text, file) if equalities.looks_like(text) else _from_yaml(text, file)
 

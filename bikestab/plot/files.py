@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -21,8 +22,10 @@ def save(figure: Figure, path: Path) -> None:
     ending = path.suffix[1:].lower()
     if ending not in known:
         raise InputError(f"Format {ending!r} is not supported", place=str(path), hint=nearest(ending, known))
+    picture = io.BytesIO()  # as some formats end in errors of their own where a disk is full
+    figure.savefig(picture, format=ending, dpi=160)
     with written(path) as part:
-        figure.savefig(part, format=ending, dpi=160)
+        part.write_bytes(picture.getbuffer())
 
 
 def slice_name(planes: Mapping[str, float], field: str = "growth_rate") -> str:

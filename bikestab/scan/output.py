@@ -21,7 +21,7 @@ from bikestab.config.scanconfig import ScanConfig
 from bikestab.config.variation import Ensemble
 from bikestab.errors import KEPT, InputError, ScanError
 from bikestab.fields import AXES, FIELDS
-from bikestab.files import NO_SPACE, beside
+from bikestab.files import NO_SPACE, beside, linked
 from bikestab.model import Floats
 from bikestab.scan.labels import texts
 from bikestab.scan.plan import Plan
@@ -137,6 +137,7 @@ def _written_alike(volume: Volume, plan: Plan) -> bool:
 
 def _replace_texts(path: Path, other: dict[str, str]) -> None:
     """Put other texts into a complete volume. It is copied: readers may have it open, and a kill may come."""
+    path = linked(path)
     copy = path.with_name(f"{path.name}.{os.getpid()}.partial")
     try:
         with beside(path, copy):

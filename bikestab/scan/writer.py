@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.fields import AXES, COORDINATES, FIELDS, Field
-from bikestab.files import beside
+from bikestab.files import beside, linked
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
 from bikestab.scan.agreement import Agreement
@@ -36,6 +36,7 @@ def new_volume(path: Path, plan: Plan) -> Iterator[VolumeWriter]:
 
     Raises OSError where it cannot be written. Ctrl-C takes effect between two tiles.
     """
+    path = linked(path)
     partial = path.with_name(path.name + ".partial")
     partial.unlink(missing_ok=True)
     with beside(path, partial), Sink(partial, "x+") as sink, sink.uninterrupted():

@@ -15,7 +15,7 @@ from bikestab_cli.options import (
     told_as_options,
     trail_option,
 )
-from bikestab_cli.output import print_json
+from bikestab_cli.output import print_json, tell_file
 
 
 @click.command("bicycles")
@@ -90,4 +90,4 @@ def _draw(name: str | None, output: str, lam: float | None, sigma: float | None)
     with told_as_options():
         design = design_of(bicycle, lam, sigma)
     save(draw_side(bicycle, *(float(value) for value in design)), Path(output))
-    click.echo(output)
+    tell_file(output)

@@ -108,6 +108,7 @@ def command(
     from bikestab.design.criteria import Wanted
     from bikestab.export.tables import FRONT, front_blocks, save_csv
     from bikestab.family import Family
+    from bikestab.files import to_stdout
 
     bicycle = load_bicycle(bicycle_name, delta)
     with told_as_options(judged="--V", V_max="--V-max"):
@@ -117,7 +118,7 @@ def command(
     check_files(csv_file, output)
     best = best_designs(wanted)
     if not as_json:
-        click.echo(told(wanted, best))
+        click.echo(told(wanted, best), err=any(to_stdout(name) for name in (csv_file, output) if name))
     files = {}
     if csv_file:
         save_csv(FRONT, front_blocks(best.pareto), csv_file)
@@ -136,7 +137,7 @@ def command(
         print_json({**head, **best._asdict(), **files})
     else:
         for kind, name in files.items():
-            click.echo(f"{kind}: {name}")
+            click.echo(f"{kind}: {name}", err=to_stdout(name))
 
 
 def _check_picture(output: str, lam: Ends, sigma: Ends) -> None:

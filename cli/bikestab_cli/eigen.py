@@ -17,7 +17,7 @@ from bikestab_cli.options import (
     told_as_options,
     trail_option,
 )
-from bikestab_cli.output import print_json
+from bikestab_cli.output import print_json, tell_file
 
 if TYPE_CHECKING:
     from bikestab.model import Model
@@ -112,5 +112,8 @@ def command(
     if as_json:
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta}
         print_json({**head, **design, "intervals": intervals, **verdict, **modes_record(found), **files})
-    else:
-        click.echo("\n".join(files.values()) or told(bicycle, model, design, intervals, verdict, found))
+        return
+    for name in files.values():
+        tell_file(name)
+    if not files:
+        click.echo(told(bicycle, model, design, intervals, verdict, found))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.options import FILE, NAME, at_option, check_files
-from bikestab_cli.output import count
+from bikestab_cli.output import count, tell_file
 
 if TYPE_CHECKING:
     from bikestab.export.volumes import Counts
@@ -119,7 +119,7 @@ def command(
 
 def _echo(names: tuple[str, ...], words: str) -> None:
     for name in names:
-        click.echo(f"{name}: {words}")
+        tell_file(name, words)
 
 
 def _intervals_told(found: Counts) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
-from bikestab_cli.options import DEFAULT_BICYCLE, NAME
+from bikestab_cli.options import DEFAULT_BICYCLE, NAME, check_files
 
 
 @click.command("init")
@@ -36,11 +36,12 @@ def command(path: str, name: str, uncertain: bool, force: bool) -> None:
     """
     from bikestab.config.template import starting_config
     from bikestab.errors import InputError
-    from bikestab.files import written
+    from bikestab.files import to_stdout, written
 
     text = starting_config(name, path, uncertain=uncertain)
-    if Path(path).exists() and not force:
+    check_files(path)
+    if Path(path).is_file() and not force:
         raise InputError("exists already", place=path, hint="--force replaces it")
     with written(path) as part:
         part.write_text(text, "utf-8")
-    click.echo(f"{path}; now 'bikestab scan {path}'")
+    click.echo(f"{path}; now 'bikestab scan {path}'", err=to_stdout(path))

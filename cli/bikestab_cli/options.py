@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from bikestab.errors import InputError
+from bikestab.files import check_writable
 from bikestab.units import ANGLE, PURE, SPEED, quantity
 
 if TYPE_CHECKING:
@@ -180,9 +181,7 @@ def check_files(*names: str | None) -> None:
     for name, place in zip(filter(None, names), places, strict=True):
         if places.count(place) > 1:
             raise click.UsageError(f"{name} is asked for twice", click.get_current_context())
-        if place.is_dir() or not place.parent.is_dir():
-            reason = "Is a directory" if place.is_dir() else "No such file or directory"
-            raise InputError(f"cannot be written ({reason})", place=name)
+        check_writable(name)
 
 
 @contextmanager

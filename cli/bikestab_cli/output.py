@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from bikestab.files import to_stdout
+
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
 
@@ -19,6 +21,11 @@ def print_json(value: object) -> None:
     import json
 
     click.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def tell_file(name: object, words: str = "") -> None:
+    """Name a file that was written on stdout, or on stderr where the file itself went to stdout."""
+    click.echo(f"{name}: {words}" if words else str(name), err=to_stdout(str(name)))
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -7,6 +7,7 @@ from typing import Literal
 
 import click
 from bikestab_cli.options import ANGLE_VALUE, FILE, NAME, SPEED_VALUE, TRAIL_VALUE, at_option
+from bikestab_cli.output import tell_file
 
 
 @click.command("slice")
@@ -63,4 +64,4 @@ def command(
             path = path.with_name(path.name + ".png")
         figure = draw_slice(opened.at(machine), fixed, value, field)  # type: ignore[arg-type]  # an axis
         save(figure, path)
-    click.echo(str(path))
+    tell_file(path)

@@ -144,7 +144,7 @@ def test_two_configs_with_one_output(scan):
     [
         ("", "Missing argument"),
         ("none.yaml", "error: none.yaml: there is no such file\n  YAML files in '.': a.yaml, b.yaml\n"),
-        (".", "is a folder, not a YAML file"),
+        (".", "is a folder, not a file"),
         ("a.yaml --set grid.lam.nun=3", "did you mean 'num'?"),
         ("a.yaml --set gird.lam.num=3", "did you mean 'grid'?"),
         ("a.yaml --set grid.lam.num", "is not key=value"),

@@ -186,7 +186,7 @@ def test_a_mistake_is_told_with_its_place(text, line, problem, hint):
         ("# only a remark\n", "scan.yaml: holds an empty document"),
         ("- a\n- b\n", "scan.yaml: holds a list, not keys with values"),
         ("bicycle dikarev1981\n", "scan.yaml: holds text, not keys with values"),
-        (b"\xff\xfe\x00", "scan.yaml: is not a text file in UTF-8"),
+        (b"\xff\xfe\x00", "scan.yaml, line 1: is not a text file in UTF-8"),
         ("grid: [\n", "scan.yaml, line 2, column 1: not valid YAML: "),
         ("a: b: c\n", "scan.yaml, line 1, column 5: not valid YAML: mapping values are not allowed"),
         ("\ta: 1\n", "scan.yaml, line 1, column 1: not valid YAML: found character '\\t'"),
@@ -226,7 +226,7 @@ def test_a_file_that_is_not_there_with_those_that_are():
 
 
 def test_a_folder_is_no_file():
-    with pytest.raises(InputError, match="is a folder, not a YAML file"):
+    with pytest.raises(InputError, match="is a folder, not a file"):
         load_config(".")
 
 

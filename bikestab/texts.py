@@ -1,0 +1,88 @@
+"""Texts that are read up to a size and for a time, whatever is at their path."""
+
+from __future__ import annotations
+
+import errno
+import os
+import select
+import stat
+import time
+from contextlib import suppress
+from pathlib import Path
+
+from bikestab.errors import InputError
+
+MOST_BYTES = 2_000_000
+PATIENCE = 30.0  # s that a pipe may take
+
+
+def read_text(path: str | Path) -> str:
+    """The text of the file, pipe or device at ``path``, with newlines for all ends of lines.
+
+    Raises InputError where it cannot be read, is longer than ``MOST_BYTES``, or is no text in UTF-8.
+    """
+    file = str(path)
+    try:
+        content = _read(path)
+    except FileNotFoundError:
+        raise InputError("there is no such file", place=file, hint=_neighbours(Path(path))) from None
+    except IsADirectoryError:
+        raise InputError("is a folder, not a file", place=file) from None
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})", place=file) from None
+    except ValueError:
+        raise InputError("cannot be read (no file has such a name)", place=file) from None
+    if len(content) > MOST_BYTES:
+        raise InputError(f"is longer than {MOST_BYTES / 1e6:g} MB, the most that is read", place=file)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise InputError("is not a text file in UTF-8", place=f"{file}, line {line}") from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def is_file(path: str | Path) -> bool:
+    """Whether something that may be read as a file is there; also False for what no file can be named."""
+    with suppress(OSError, ValueError):
+        return Path(path).exists() and not Path(path).is_dir()
+    return False
+
+
+def _read(path: str | Path) -> bytes:
+    """At most one byte more than ``MOST_BYTES``. Raises OSError, also where a pipe takes too long."""
+    descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))
+    with open(descriptor, "rb", buffering=0) as file:  # noqa: PTH123  # open already
+        if stat.S_ISDIR(os.fstat(descriptor).st_mode):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        parts, left, end = [], MOST_BYTES + 1, time.monotonic() + PATIENCE
+        while left:
+            if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+                _wait(descriptor, end)
+            part = file.read(min(left, 1 << 20))
+            if part is None:  # something else took what was there
+                continue
+            if not part:
+                break
+            parts.append(part)
+            left -= len(part)
+        return b"".join(parts)
+
+
+def _wait(descriptor: int, end: float) -> None:
+    """Wait until there is something to read. Raises OSError where that takes too long."""
+    poll = select.poll()
+    poll.register(descriptor, select.POLLIN)
+    if not poll.poll(max(0.0, 1e3 * (end - time.monotonic()))):
+        raise OSError(errno.ETIMEDOUT, f"it did not end within {PATIENCE:g} s")
+
+
+def _neighbours(path: Path) -> str:
+    folder = path.parent
+    try:
+        names = sorted(p.name for p in folder.iterdir() if p.suffix in {".yaml", ".yml"})[:8]
+    except OSError as error:
+        if isinstance(error, FileNotFoundError):
+            return f"the folder {str(folder)!r} does not exist either"
+        return f"the folder {str(folder)!r} cannot be read ({error.strerror})"
+    return f"YAML files in {str(folder)!r}: {', '.join(names) or 'none'}"
