@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -32,15 +31,8 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
     """The configuration in a parsed YAML document; see ``load_config``."""
     places = {}
     for override in overrides:
-        key = _override(document.data, override)
+        key, document = _override(document, override)
         places[key] = f"--set {override}"
-    text = document.text
-    if overrides:
-        from ruamel.yaml import YAML
-
-        stream = io.StringIO()
-        YAML().dump(document.data, stream)
-        text = stream.getvalue()
     try:
         data = _plain(document.data)
         data.setdefault("output", f"out/{Path(document.file).stem}")
@@ -48,7 +40,7 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
             typed = ("bicycle",) in places  # in a command, where paths start from the current folder
             data["bicycle"] = _load_bicycle(data["bicycle"], "" if typed else Path(document.file).parent)
         try:
-            return ScanConfig.model_validate(data).with_text(text)
+            return ScanConfig.model_validate(data).with_text(document.text)
         except ValidationError as error:
             raise _translated(error) from None
     except InputError as error:
@@ -134,8 +126,8 @@ def _known(key: tuple[str | int, ...]) -> list[str]:
     return list(model.model_fields)
 
 
-def _override(data: Any, override: str) -> tuple[str | int, ...]:
-    """Put ``key.path=value`` into the YAML tree; returns the path, or its part down to the first new key."""
+def _override(document: yamltext.Document, override: str) -> tuple[tuple[str | int, ...], yamltext.Document]:
+    """Put ``key.path=value`` in; its path, or the part down to the first new key, and the new document."""
     name, equals, text = override.partition("=")
     path = [part.strip() for part in name.split(".")]
     if not equals or not all(path):
@@ -144,7 +136,8 @@ def _override(data: Any, override: str) -> tuple[str | int, ...]:
         )
     value = yamltext.parse(f"value: {text}", f"--set {override}").data["value"]
     key: list[str | int] = []
-    node, made = data, False
+    node: Any = document.data
+    made = len(path)
     for i, part in enumerate(path):
         step: str | int = part
         if isinstance(node, list):
@@ -154,16 +147,12 @@ def _override(data: Any, override: str) -> tuple[str | int, ...]:
                 raise InputError(f"{dotted(key)} has no item {part}", place=f"--set {override}")
         elif not isinstance(node, dict):
             raise InputError(f"{dotted(key)} has no keys", place=f"--set {override}")
-        if not made:
-            key.append(step)
-        made = made or (isinstance(node, dict) and step not in node)
-        if i == len(path) - 1:
-            node[step] = value
+        key.append(step)
+        if isinstance(node, dict) and step not in node:
+            made, node = min(made, i + 1), {}
         else:
-            if isinstance(node, dict) and step not in node:
-                node[step] = type(node)()
             node = node[step]
-    return tuple(key)
+    return tuple(key[:made]), document.replaced(key, value)
 
 
 def _plain(node: Any, key: tuple[str | int, ...] = ()) -> Any:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import io
 import json
 from collections.abc import Mapping
 from math import inf
@@ -13,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bikestab.bicycle import Bicycle
+from bikestab.yamltext import dumped
 
 OUT_OF_EQUATIONS = {"IByy", "IHyy"}
 
@@ -39,13 +39,9 @@ def drawn_around(bicycle: Bicycle) -> dict[str, Any]:
 
 def yaml_text(bicycle: Bicycle, values: Mapping[str, Any]) -> str:
     """A YAML text of a bicycle's parameters in place and of a config's other ``values``, to the last bit."""
-    from ruamel.yaml import YAML
-
     texts = {"name": bicycle.name, "source": bicycle.source}
     parameters = {**{key: text for key, text in texts.items() if text}, **bicycle.given}
-    stream = io.StringIO()
-    YAML().dump({"bicycle": parameters, **{key: _spelt(value) for key, value in values.items()}}, stream)
-    return stream.getvalue()
+    return dumped({"bicycle": parameters, **{key: _spelt(value) for key, value in values.items()}})
 
 
 def _spelt(value: Any) -> Any:

@@ -290,7 +290,7 @@ def test_no_slow_import(args):
         f"sys.argv = ['bikestab', 'vrange', *{args!r}]\n"
         "try: main()\n"
         "except SystemExit as end: assert end.code == 0\n"
-        "slow = {'scipy', 'h5py', 'matplotlib', 'pydantic', 'xarray', 'ruamel'} & set(sys.modules)\n"
+        "slow = {'scipy', 'h5py', 'matplotlib', 'pydantic', 'xarray', 'yaml'} & set(sys.modules)\n"
         "assert not slow, slow\n"
     )
     done = subprocess.run(

@@ -70,7 +70,7 @@ def test_overrides_reach_into_lists():
         ("slices.a.lam=0.2", "--set slices.a.lam=0.2: slices has no item a"),
         ("title=", "--set title=: title: nothing is not text"),
         ("title=a: b", "--set title=a: b, line 1, column 9: not valid YAML: "),
-        ("grid.lam=[1, 2", "--set grid.lam=[1, 2, line 1, column 13: not valid YAML: "),
+        ("grid.lam=[1, 2", "--set grid.lam=[1, 2, line 1: not valid YAML: "),
         ("grid.lam.num", "--set: 'grid.lam.num' is not key=value"),
         ("=3", "--set: '=3' is not key=value"),
         ("grid..num=3", "--set: 'grid..num=3' is not key=value"),
@@ -189,13 +189,13 @@ def test_a_mistake_is_told_with_its_place(text, line, problem, hint):
         (b"\xff\xfe\x00", "scan.yaml, line 1: is not a text file in UTF-8"),
         ("grid: [\n", "scan.yaml, line 2, column 1: not valid YAML: "),
         ("a: b: c\n", "scan.yaml, line 1, column 5: not valid YAML: mapping values are not allowed"),
-        ("\ta: 1\n", "scan.yaml, line 1, column 1: not valid YAML: found character '\\t'"),
-        (GOOD + "bicycle: x\n", 'scan.yaml, line 6, column 1: not valid YAML: found duplicate key "bicycle"'),
-        (GOOD + "---\nbicycle: x\n", "scan.yaml, line 6, column 1: not valid YAML: but found another"),
-        ("bicycle: \0\n", "scan.yaml: not valid YAML: unacceptable character #x0000"),
-        ("grid: " + "[" * 500 + "]" * 500 + "\n", "scan.yaml"),
-        (GOOD.replace("num: 6", "num: " + "9" * 5000), "scan.yaml"),
-        ("bicycle: &loop\n  c: *loop\n", "scan.yaml, line 2: bicycle.c: "),
+        ("\ta: 1\n", "scan.yaml, line 1, column 1: not valid YAML: found character that cannot start"),
+        (GOOD + "bicycle: x\n", "scan.yaml, line 6, column 1: not valid YAML: found duplicate key 'bicycle'"),
+        (GOOD + "---\nbicycle: x\n", "scan.yaml, line 6, column 1: not valid YAML: a second document"),
+        ("bicycle: \0\n", "scan.yaml, line 1: not valid YAML: unacceptable character #x0000"),
+        ("grid: " + "[" * 500 + "]" * 500 + "\n", "scan.yaml, line 1, column 39: is nested too deeply"),
+        (GOOD.replace("num: 6", "num: " + "9" * 5000), "scan.yaml, line 5, column 32: not valid YAML"),
+        ("bicycle: &loop\n  c: *loop\n", "scan.yaml, line 2, column 6: *loop stands in what"),
     ],
     ids=[
         "empty", "remark", "list", "text", "binary", "open list", "two colons", "tab", "twice",
@@ -209,7 +209,7 @@ def test_what_is_no_config_at_all(text, expected):
     assert len(found) < 400
 
 
-@pytest.mark.parametrize("bad", ['title: "a\\0b"', 'title: "\\ud800"', 'output: "a\\0b"'])
+@pytest.mark.parametrize("bad", ['title: "a\\0b"', 'output: "a\\0b"'])
 def test_text_that_no_file_can_hold(bad):
     assert message(GOOD + bad + "\n").startswith(f"scan.yaml, line 6: {bad[: bad.index(':')]}: ")
 
