@@ -19,7 +19,7 @@ from bikestab.critical import critical
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials
 from bikestab.scan.sheets import Atlas, Roots, most_roots
-from bikestab.speeds import intervals_between, intervals_of
+from bikestab.speeds import Intervals, intervals_between, intervals_of
 
 TILE = (64, 128)  # λ and σ, as a scan has them
 SAMPLE = 200  # columns for numpy.roots
@@ -46,7 +46,7 @@ def boundary(parts: list[tuple[tuple[int, int], NDArray]]) -> int:
         exact = critical(flat)
         shape = table.shape[2:]
         inside = intervals_between(flat, exact)
-        inside = type(inside)(*(each.reshape(*shape, -1) for each in inside))
+        inside = Intervals(*(each.reshape(*shape, each.shape[-1]) for each in inside.arrays().values()))
         roots = {
             name: Roots(
                 exact.speeds[name].T.reshape(*shape, len(exact.speeds[name])),
