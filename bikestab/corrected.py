@@ -16,39 +16,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.certain import Zeros, collected, signs
+from bikestab.entries import Entries
 from bikestab.isolation import isolated
 from bikestab.model import Floats
 from bikestab.roots import bracketed_root
-from bikestab.rounding import CLOSE, COEFFICIENT, CONDITION_AT, ENTRY, POLYNOMIAL
+from bikestab.rounding import COEFFICIENT, CONDITION_AT, POLYNOMIAL
 from bikestab.twofold import Double, Pair, Twofold, pair_product, pair_sum, two_product
 
 _ENOUGH = 2.0**-60  # a bound relative to its speed, far below the rounding of that
+_MOST = 0.5  # of the cells: so many are worked on as quickly together with the others as by themselves
 _Cells = NDArray[np.bool_]
 
 
-ValueAt = Callable[["Entries", Floats], Pair]
+ValueAt = Callable[[Entries, Floats], Pair]
 Coefficients = Sequence[Double | None]  # of V^0, V^1, …; None where it is zero in all cells
-
-
-class Entries:
-    """Entries (cell,) of the tables of some cells, by (k, j): those that there are."""
-
-    def __init__(self, numbers: dict[tuple[int, int], Twofold]) -> None:
-        self.numbers = numbers
-
-    def at(self, cells: NDArray[Any]) -> Entries:
-        """Some of the cells."""
-        return Entries({key: a.at(cells) for key, a in self.numbers.items()})
-
-    def double(self, k: int, j: int) -> Double:
-        """One of them in double precision."""
-        a = self.numbers[k, j]
-        return Double(a.value, np.abs(a.value) + a.size * (ENTRY / CLOSE))
-
-    def pair(self, k: int, j: int) -> Pair:
-        """One of them in twice double precision."""
-        a = self.numbers[k, j]
-        return a.value, a.rest
 
 
 def hurwitz3_at(entries: Entries, V: Floats) -> Pair:
@@ -101,12 +82,15 @@ def _signs(a: Double) -> tuple[Floats, _Cells]:
     return np.sign(a.value), (np.abs(a.value) > 2 * POLYNOMIAL * a.size) | (a.size == 0)
 
 
-def zero_of_even(a: Twofold, b: Twofold) -> Zeros:
-    """The positive zero V of a + b V²."""
+def zero_of_even(a: Twofold, b: Twofold, fine: bool) -> Zeros:
+    """The positive zero V of a + b V², corrected where that is asked for."""
     (sign_a, sure_a), (sign_b, sure_b) = signs(a), signs(b)
     exists = sign_a * sign_b < 0
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         V = np.sqrt(np.where(exists, -a.value / b.value, np.nan))
+        if not fine:  # four roundings, two of them below the root
+            share = 2.0**-51 + COEFFICIENT * (a.size / np.abs(a.value) + 2 * b.size / np.abs(b.value))
+            return Zeros(V[np.newaxis], np.zeros((1, len(V))), (share * V)[np.newaxis], sure_a & sure_b)
         square = two_product(V, V)
         value, rest = pair_sum((a.value, a.rest), pair_product((b.value, b.rest), square))
         steep = np.abs(b.value) * V
@@ -114,10 +98,8 @@ def zero_of_even(a: Twofold, b: Twofold) -> Zeros:
         error = COEFFICIENT * (a.size + b.size * square[0])
         doubt = 4 * COEFFICIENT * b.size / np.abs(b.value) + np.abs(move) / V + 2.0**-49
         x = V - move
-        return Zeros(
-            x[np.newaxis], ((V - x) - move)[np.newaxis],
-            (2 * error / steep + np.abs(move) * doubt)[np.newaxis], sure_a & sure_b,
-        )  # fmt: skip
+        radius = 2 * error / steep + np.abs(move) * doubt
+    return Zeros(x[np.newaxis], ((V - x) - move)[np.newaxis], radius[np.newaxis], sure_a & sure_b)
 
 
 def zeros_of_quadratic(entries: Entries, c: Sequence[Double]) -> Zeros:
@@ -138,10 +120,12 @@ def zeros_of_quadratic(entries: Entries, c: Sequence[Double]) -> Zeros:
     polynomial = c0, None, c1, None, c2
     out = np.full((3, 2, len(good)), np.nan)
     for i, V in enumerate((np.fmin(one, other), np.maximum(one, other))):
-        cell = np.flatnonzero(V > 0)
-        if len(cell):
+        exists = V > 0
+        number = np.count_nonzero(exists)
+        if number:
+            cell = np.flatnonzero(exists) if number < _MOST * len(V) else slice(None)
             out[:, i, cell], sure = _corrected(entries, polynomial, cell, V[cell])
-            good[cell[~sure]] = False
+            good[cell] &= sure | ~exists[cell]
     good &= ~(out[0, 1] - out[0, 0] <= out[2, 1] + out[2, 0])  # twice the same
     return Zeros(out[0], out[1], out[2], good)
 
@@ -161,7 +145,7 @@ def zeros_between(entries: Entries, c: Coefficients, value_at: ValueAt, number: 
 
 
 def _corrected(
-    entries: Entries, c: Coefficients, cell: NDArray[np.intp], V: Floats, value_at: ValueAt = hurwitz3_at
+    entries: Entries, c: Coefficients, cell: Any, V: Floats, value_at: ValueAt = hurwitz3_at
 ) -> tuple[Floats, _Cells]:
     """V, rest and radius (3, root) of zeros near V (root,) in these cells, and for which they are certain."""
     some = [None if a is None else a.at(cell) for a in c]

@@ -12,24 +12,21 @@ from bikestab import certain
 from bikestab.certain import Zeros, square_roots, zero_of_linear, zeros_of
 from bikestab.corrected import (
     Coefficients,
-    Entries,
     hurwitz3_at,
     p1_at,
     zero_of_even,
     zeros_between,
     zeros_of_quadratic,
 )
+from bikestab.entries import DAMPED, EVEN, Cells, Entries, cells_of, scaled
 from bikestab.model import ExactTable, Floats
-from bikestab.rounding import ENTRY
 from bikestab.routh import CONDITIONS, hurwitz3_of
 from bikestab.twofold import Double, Twofold
 
 T = TypeVar("T", Twofold, Double)
 
+_ALL = (*np.ndindex(5, 4),)
 _CHUNK = 1 << 13  # cells worked on at a time, so that their temporaries fit the cache
-_LARGE = 2.0**60  # of entries whose products by three and four stay in range
-_EVEN = ((0, 0), (0, 2), (1, 1), (1, 3), (2, 0), (2, 2), (3, 1), (4, 0))  # entries without damping
-_DAMPED = (*_EVEN, (3, 0), (1, 0))
 
 
 class Critical(NamedTuple):
@@ -52,12 +49,11 @@ def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS) -> C
     Without damping all are square roots of the zeros of linear and quadratic polynomials in V²; with
     damping those of p1 and hurwitz3 are isolated first. A cell's result does not depend on other cells.
     """
-    exact = as_exact(table)
-    shape = exact.shape[2:]
-    cells = exact.reshape(5, 4, -1)
-    number = cells.shape[-1]
+    shape = table.shape[2:]
+    cells = cells_of(table)
+    number = cells.value.shape[-1]
     parts = [
-        _critical_of(cells.cells(slice(start, start + _CHUNK)), names)
+        _critical_of(cells.some(slice(start, start + _CHUNK)), names)
         for start in range(0, max(number, 1), _CHUNK)
     ]
     speeds, sign, zeros = {}, {}, {}
@@ -65,73 +61,38 @@ def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS) -> C
         found = [part[name][0] for part in parts]
         most = max(int(np.isfinite(each.V).any(axis=1).sum()) for each in found)
         columns = [
-            np.concatenate([_rows_of(values, most) for values in each], axis=1).reshape(most, *shape)
+            _joined([_rows_of(values, most) for values in each]).reshape(most, *shape)
             for each in zip(*((z.V, z.rest, z.radius) for z in found), strict=True)
         ]
-        sure = np.concatenate([each.sure for each in found])
+        sure = _joined([each.sure for each in found])
         zeros[name] = Zeros(columns[0], columns[1], columns[2], sure.reshape(shape))
         speeds[name] = zeros[name].V
-        sign[name] = np.concatenate([part[name][1] for part in parts]).reshape(shape)
+        sign[name] = _joined([part[name][1] for part in parts]).reshape(shape)
     return Critical(speeds, sign, zeros)
 
 
-def as_exact(table: Floats | ExactTable) -> ExactTable:
-    """A table of doubles as what it is: exactly these."""
-    if isinstance(table, ExactTable):
-        return table
-    return ExactTable(table, np.zeros_like(table), np.abs(table) * ENTRY)
-
-
-def _critical_of(table: ExactTable, names: Sequence[str]) -> dict[str, tuple[Zeros, Floats]]:
+def _critical_of(table: Cells, names: Sequence[str]) -> dict[str, tuple[Zeros, Floats]]:
     """For each name the zeros (root, cell) of a table (5, 4, cell), and the sign before them."""
-    number = table.shape[-1]
-    has = table.error > 0
+    number = table.value.shape[-1]
+    has = table.has()
     others = has.copy()
-    for k, j in _EVEN:
+    for k, j in EVEN:
         others[k, j] = False
     uneven: NDArray[np.bool_] = np.asarray(others.any(axis=(0, 1)))
     for k, j in ((3, 0), (1, 0)):
         others[k, j] = False
     odd: NDArray[np.bool_] = np.asarray(others.any(axis=(0, 1)))
-    groups = ((_even, ~uneven), (_damped, uneven & ~odd), (_any, odd))
+    groups = ((_even, EVEN, ~uneven), (_damped, DAMPED, uneven & ~odd), (_any, _ALL, odd))
     found: dict[str, list[tuple[NDArray[np.bool_], Zeros, Floats]]] = {name: [] for name in names}
-    for solve, chosen in groups:
+    for solve, keys, chosen in groups:
         if chosen.any():
-            entries, unit = _scaled(table if chosen.all() else table.cells(chosen), solve)
+            part = table if chosen.all() else table.some(chosen)
+            entries, unit = scaled(part, keys, closed=solve is _even)
             for name in names:
                 zeros, polynomial = solve(entries, name, int(np.count_nonzero(chosen)))
                 zeros = zeros if unit is None else zeros.scaled(unit)
                 found[name].append((chosen, zeros, _sign_near_zero(polynomial, len(zeros.sure))))
     return {name: _together(each, number) for name, each in found.items()}
-
-
-def _scaled(table: ExactTable, solve: Any) -> tuple[Entries, Floats | None]:
-    """The entries in units of speed, time and size that bring p4, q0 and k near one, and the unit of speed.
-
-    The units are powers of two, so that no bit changes: they keep products in range. In closed forms,
-    where intervals to be cut do not depend on them, entries that are in range already stay as they are.
-    """
-    used = _EVEN if solve is _even else _DAMPED if solve is _damped else [*np.ndindex(5, 4)]
-    if solve is _even and all(_moderate(table.value[key]) for key in used):
-        units = dict.fromkeys(used, 1.0)
-        speed = None
-    else:
-        p4, k, q0 = (np.clip(np.frexp(table.value[key])[1], -300, 300) for key in ((4, 0), (3, 1), (2, 0)))
-        time = (q0 - p4) // 2
-        exponent = np.clip(p4 + time - k, -200, 200)
-        units = {(i, j): np.ldexp(1.0, time * (i - 4) + exponent * j - p4) for i, j in used}
-        speed = np.ldexp(1.0, exponent)
-    numbers = {}
-    for key, unit in units.items():
-        value, rest, error = (each[key] if speed is None else each[key] * unit for each in table)
-        numbers[key] = Twofold(value, rest, error / ENTRY)
-    return Entries(numbers), speed
-
-
-def _moderate(a: Floats) -> bool:
-    """Whether products of three or four of these numbers are in range."""
-    size = np.abs(a)
-    return bool(np.all((size < _LARGE) & ((size > 1 / _LARGE) | (size == 0))))
 
 
 def _even(entries: Entries, name: str, number: int) -> tuple[Zeros, Sequence[Twofold | Double | None]]:
@@ -144,12 +105,12 @@ def _even(entries: Entries, name: str, number: int) -> tuple[Zeros, Sequence[Two
     if name in ("p3", "p4"):
         return _none(number), [numbers[(3, 1) if name == "p3" else (4, 0)]]
     a, b = {"p0": ((0, 0), (0, 2)), "p1": ((1, 1), (1, 3)), "p2": ((2, 0), (2, 2))}[name]
-    return zero_of_even(numbers[a], numbers[b]), [numbers[a], numbers[b]]
+    return zero_of_even(numbers[a], numbers[b], fine=name == "p0"), [numbers[a], numbers[b]]
 
 
 def _hurwitz3_even(n: dict[tuple[int, int], T]) -> list[T]:
     """Hurwitz3/V² without damping as a polynomial in V²."""
-    f0, f, e0, e, q0, q, k, m = (n[key] for key in _EVEN)
+    f0, f, e0, e, q0, q, k, m = (n[key] for key in EVEN)
     slow, fast = q0 * k - m * e0, q * k - m * e
     square = k * k
     return [e0 * slow - f0 * square, e0 * fast + e * slow - f * square, e * fast]
@@ -235,6 +196,10 @@ def _together(parts: list[tuple[NDArray[np.bool_], Zeros, Floats]], number: int)
             out[i, : len(zeros.V), chosen] = zeros[i].T
         sure[chosen], sign[chosen] = zeros.sure, before
     return Zeros(out[0], out[1], out[2], sure), sign
+
+
+def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
+    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=-1)
 
 
 def _rows_of(values: Floats, most: int) -> Floats:

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.critical import Critical, as_exact, critical
+from bikestab.critical import Critical, critical
+from bikestab.entries import Cells, cells_of
 from bikestab.model import ExactTable, Floats
 from bikestab.rounding import VALUE
 
@@ -85,9 +86,8 @@ def intervals_of(table: Floats | ExactTable) -> Intervals:
     An end is ``weave`` (hurwitz3 = 0), ``capsize`` (p0 = 0), ``rest`` (V = 0) or ``unbounded``.
     The last axis is as long as the largest number of intervals in any cell, and at least 1.
     """
-    exact = as_exact(table)
-    shape = exact.shape[2:]
-    cells = exact.reshape(5, 4, -1)
+    shape = table.shape[2:]
+    cells = table.reshape(5, 4, -1)
     found = intervals_between(cells, critical(cells, ("p0", "hurwitz3")))
     return Intervals(*(field.reshape(*shape, field.shape[-1]) for field in found.arrays().values()))
 
@@ -103,8 +103,7 @@ class _Ends(NamedTuple):
 
 def intervals_between(table: Floats | ExactTable, critical: Critical) -> Intervals:
     """``intervals_of`` a table (5, 4, cell) whose critical speeds are known."""
-    exact = as_exact(table)
-    n = exact.shape[-1]
+    n = table.shape[-1]
     ends = _ends(critical)
     weave, capsize = critical.zeros["hurwitz3"], critical.zeros["p0"]
     marginal = np.where(~capsize.sure, _CAPSIZE_SPEED, np.where(~weave.sure, _WEAVE_SPEEDS, 0))
@@ -130,7 +129,7 @@ def intervals_between(table: Floats | ExactTable, critical: Critical) -> Interva
     column, stretch = _cells_of(good)
     low, high = lower_V[stretch, column], upper_V[stretch, column]
     inside = np.where(np.isfinite(high), low + 0.5 * (high - low), 2 * low + 1)
-    stable, clear = _others_positive(exact, column, inside)
+    stable, clear = _others_positive(cells_of(table), column, inside)
     good[stretch, column] = stable
     marginal[column[~clear]] = _SIGNS
     marginal[_out_of_order(ends)] = _ORDER
@@ -193,22 +192,24 @@ def _out_of_order(ends: _Ends) -> NDArray[np.bool_]:
 
 
 def _others_positive(
-    table: ExactTable, cell: NDArray[np.intp], V: Floats
+    table: Cells, cell: NDArray[np.intp], V: Floats
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Whether p1 … p4 are positive at speeds with p0, hurwitz3 > 0, and whether that is certain.
 
     There p1 (p2 p3 − p4 p1) > p0 p3² ≥ 0, so that with p3, p4 > 0 p1 and p2 have one sign: where one of
     them is near zero the other one tells.
     """
-    has = np.logical_or.reduce(table.error, axis=-1)
+    has = np.any(table.has(), axis=-1)
     sums = []
     for k in range(1, 5):
         p, bound = np.zeros(len(V)), np.zeros(len(V))
-        for j in np.flatnonzero(has[k]):
+        for j in np.flatnonzero(has[k, :]):
             power = V**0 if j == 0 else V if j == 1 else V * V if j == 2 else V * V * V
             term = table.value[k, j, cell] * power
             p += term
-            bound += VALUE * np.abs(term) + table.error[k, j, cell] * power
+            bound += VALUE * np.abs(term)
+            if table.error is not None:
+                bound += table.error[k, j, cell] * power
         sums.append((p, bound))
     (p1, _), (p2, _), (p3, _), (p4, _) = sums
     clear = [np.abs(p) > bound for p, bound in sums]

@@ -24,25 +24,37 @@ def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
     """A + b as the nearest double and the rest, which is exact."""
     s = a + b
     part = s - a
-    return s, (a - (s - part)) + (b - part)
+    rest = a - (s - part)
+    rest += b - part
+    return s, rest
 
 
 def two_product(a: Any, b: Any) -> tuple[Any, Any]:
     """A b as the nearest double and the rest, which is exact."""
     p = a * b
-    t = _SPLITTER * a
-    a1 = t - (t - a)
-    a2 = a - a1
-    t = _SPLITTER * b
-    b1 = t - (t - b)
-    b2 = b - b1
-    return p, a2 * b2 - (((p - a1 * b1) - a2 * b1) - a1 * b2)
+    a1, a2 = _halves(a)
+    b1, b2 = _halves(b)
+    rest = a1 * b1
+    rest -= p  # in place where it is an array: what is new must come into the cache first
+    rest += a2 * b1
+    rest += a1 * b2
+    rest += a2 * b2
+    return p, rest
+
+
+def _halves(a: Any) -> tuple[Any, Any]:
+    """A as a sum of two numbers of 26 bits."""
+    high = _SPLITTER * a
+    low = high - a
+    high -= low
+    return high, a - high
 
 
 def _ordered(a: Any, b: Any) -> tuple[Any, Any]:
     """``two_sum`` where |a| ≥ |b|."""
     s = a + b
-    return s, b - (s - a)
+    rest = s - a
+    return s, b - rest
 
 
 Pair = tuple[Any, Any]
@@ -51,13 +63,17 @@ Pair = tuple[Any, Any]
 def pair_sum(a: Pair, b: Pair) -> Pair:
     """The sum of two pairs value + rest, not ordered: the rest may grow to some u of the terms' sizes."""
     s, r = two_sum(a[0], b[0])
-    return s, r + (a[1] + b[1])
+    r += a[1] + b[1]
+    return s, r
 
 
 def pair_product(a: Pair, b: Pair) -> Pair:
     """The product of two pairs value + rest, whose rests are some u of their sizes; as ``pair_sum``."""
     p, r = two_product(a[0], b[0])
-    return p, r + (a[0] * b[1] + a[1] * b[0])
+    cross = a[0] * b[1]
+    cross += a[1] * b[0]
+    r += cross
+    return p, r
 
 
 class Twofold:
@@ -78,14 +94,17 @@ class Twofold:
         if not isinstance(other, Twofold):
             other = Twofold(other)
         s, r = two_sum(self.value, other.value)
-        return Twofold(*_ordered(s, r + (self.rest + other.rest)), self.size + other.size)
+        r += self.rest + other.rest
+        return Twofold(*_ordered(s, r), self.size + other.size)
 
     def __mul__(self, other: Any) -> Twofold:
         if not isinstance(other, Twofold):
             p, r = two_product(self.value, other)
-            return Twofold(*_ordered(p, r + self.rest * other), self.size * np.abs(other))
+            r += self.rest * other
+            return Twofold(*_ordered(p, r), self.size * np.abs(other))
         p, r = two_product(self.value, other.value)
-        r = r + (self.value * other.rest + self.rest * other.value)
+        cross = self.value * other.rest
+        r += cross + self.rest * other.value
         return Twofold(*_ordered(p, r), self.size * other.size)
 
     def __truediv__(self, other: Twofold) -> Twofold:
