@@ -130,15 +130,15 @@ def zeros_of_quadratic(entries: Entries, c: Sequence[Double]) -> Zeros:
     return Zeros(out[0], out[1], out[2], good)
 
 
-def zeros_between(entries: Entries, c: Coefficients, value_at: ValueAt, number: int) -> Zeros:
+def zeros_between(entries: Entries, c: Coefficients, value_at: ValueAt) -> Zeros:
     """The positive zeros V of p1 or hurwitz3 with damping; ``sure`` where they are good."""
-    (cell, low, high, sign), undecided = isolated(c, number)
+    (cell, low, high, sign), undecided = isolated(c, len(entries))
     plain = np.array([np.zeros(len(cell)) if a is None else a.value[cell] for a in c])
     start = bracketed_root(plain, low, high, sign)
     found, sure = _corrected(entries, c, cell, start, value_at)
     good = ~undecided
     good[cell[~sure]] = False
-    zeros = collected(cell, found, number)
+    zeros = collected(cell, found, len(entries))
     for one, other in pairwise(zip(zeros.V, zeros.radius, strict=True)):
         good &= ~(other[0] - one[0] <= other[1] + one[1])
     return zeros._replace(sure=good)

@@ -25,6 +25,7 @@ from bikestab.twofold import Double, Twofold
 
 T = TypeVar("T", Twofold, Double)
 
+Found = tuple[Zeros, Floats]  # of one condition in some cells: its zeros, and its sign before them
 _ALL = (*np.ndindex(5, 4),)
 _CHUNK = 1 << 13  # cells worked on at a time, so that their temporaries fit the cache
 
@@ -71,7 +72,7 @@ def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS) -> C
     return Critical(speeds, sign, zeros)
 
 
-def _critical_of(table: Cells, names: Sequence[str]) -> dict[str, tuple[Zeros, Floats]]:
+def _critical_of(table: Cells, names: Sequence[str]) -> dict[str, Found]:
     """For each name the zeros (root, cell) of a table (5, 4, cell), and the sign before them."""
     number = table.value.shape[-1]
     has = table.has()
@@ -89,23 +90,21 @@ def _critical_of(table: Cells, names: Sequence[str]) -> dict[str, tuple[Zeros, F
             part = table if chosen.all() else table.some(chosen)
             entries, unit = scaled(part, keys, closed=solve is _even)
             for name in names:
-                zeros, polynomial = solve(entries, name, int(np.count_nonzero(chosen)))
-                zeros = zeros if unit is None else zeros.scaled(unit)
-                found[name].append((chosen, zeros, _sign_near_zero(polynomial, len(zeros.sure))))
+                zeros, sign = solve(entries, name)
+                found[name].append((chosen, zeros if unit is None else zeros.scaled(unit), sign))
     return {name: _together(each, number) for name, each in found.items()}
 
 
-def _even(entries: Entries, name: str, number: int) -> tuple[Zeros, Sequence[Twofold | Double | None]]:
+def _even(entries: Entries, name: str) -> Found:
     """Without damping: p0, p2, p1/V and hurwitz3/V² in V²."""
     numbers = entries.numbers
     if name == "hurwitz3":
-        w = _hurwitz3_even({key: entries.double(*key) for key in numbers})
-        zeros = zeros_of_quadratic(entries, w)
-        return _again(zeros, entries, _fine_even), w
+        w = _hurwitz3_even({key: entries.double(*key) for key in EVEN})
+        return _again(zeros_of_quadratic(entries, w), w, entries, _fine_even)
     if name in ("p3", "p4"):
-        return _none(number), [numbers[(3, 1) if name == "p3" else (4, 0)]]
+        return _found(_none(len(entries)), [numbers[(3, 1) if name == "p3" else (4, 0)]])
     a, b = {"p0": ((0, 0), (0, 2)), "p1": ((1, 1), (1, 3)), "p2": ((2, 0), (2, 2))}[name]
-    return zero_of_even(numbers[a], numbers[b], fine=name == "p0"), [numbers[a], numbers[b]]
+    return _found(zero_of_even(numbers[a], numbers[b], fine=name == "p0"), [numbers[a], numbers[b]])
 
 
 def _hurwitz3_even(n: dict[tuple[int, int], T]) -> list[T]:
@@ -116,55 +115,52 @@ def _hurwitz3_even(n: dict[tuple[int, int], T]) -> list[T]:
     return [e0 * slow - f0 * square, e0 * fast + e * slow - f * square, e * fast]
 
 
-def _fine_even(entries: Entries, number: int) -> Zeros:
-    return square_roots(certain.zeros_of_quadratic(*_hurwitz3_even(entries.numbers)))
+def _fine_even(entries: Entries) -> Found:
+    w = _hurwitz3_even(entries.numbers)
+    return _found(square_roots(certain.zeros_of_quadratic(*w)), w)
 
 
-def _damped(entries: Entries, name: str, number: int) -> tuple[Zeros, Sequence[Twofold | Double | None]]:
+def _damped(entries: Entries, name: str) -> Found:
     """With damping p3 and p1 have both even and odd powers of V, and hurwitz3 is of degree 6."""
     if name in ("p0", "p2", "p4"):
-        return _even(entries, name, number)
+        return _even(entries, name)
     n = entries.numbers
     if name == "p3":
-        return zero_of_linear(n[3, 0], n[3, 1]), [n[3, 0], n[3, 1]]
-    doubles = {key: entries.double(*key) for key in n}
-    if name == "p1":
-        c: Coefficients = [doubles[1, 0], doubles[1, 1], None, doubles[1, 3]]
-        zeros = zeros_between(entries, c, p1_at, number)
-        return _again(zeros, entries, _fine_p1), c
-    c = hurwitz3_of(_rows(doubles))
-    return _again(zeros_between(entries, c, hurwitz3_at, number), entries, _fine_hurwitz3), c
+        return _found(zero_of_linear(n[3, 0], n[3, 1]), [n[3, 0], n[3, 1]])
+    doubles = _rows({key: entries.double(*key) for key in n})
+    c, value_at, fine = (
+        (doubles[1], p1_at, _fine_p1) if name == "p1" else (hurwitz3_of(doubles), hurwitz3_at, _fine_hurwitz3)
+    )
+    return _again(zeros_between(entries, c, value_at), c, entries, fine)
 
 
-def _fine_p1(entries: Entries, number: int) -> Zeros:
-    n = entries.numbers
-    return zeros_of([n[1, 0], n[1, 1], None, n[1, 3]], number)
+def _fine_p1(entries: Entries) -> Found:
+    p1 = _rows(entries.numbers)[1]
+    return _found(zeros_of(p1, len(entries)), p1)
 
 
-def _fine_hurwitz3(entries: Entries, number: int) -> Zeros:
-    return zeros_of(hurwitz3_of(_rows(entries.numbers)), number)
+def _fine_hurwitz3(entries: Entries) -> Found:
+    polynomial = hurwitz3_of(_rows(entries.numbers))
+    return _found(zeros_of(polynomial, len(entries)), polynomial)
 
 
-def _again(zeros: Zeros, entries: Entries, fine: Callable[[Entries, int], Zeros]) -> Zeros:
+def _again(zeros: Zeros, c: Coefficients, entries: Entries, fine: Callable[[Entries], Found]) -> Found:
     """With the cells that are not sure done in twice double precision throughout."""
-    if zeros.sure.all():
-        return zeros
+    first = _found(zeros, c)
     poor = np.flatnonzero(~zeros.sure)
-    better = fine(entries.at(poor), len(poor))
-    most = max(len(zeros.V), len(better.V))
-    each = [_rows_of(values, most).copy() for values in zeros[:3]]
-    for values, new in zip(each, better[:3], strict=True):
-        values[:, poor] = _rows_of(new, most)
-    sure = zeros.sure.copy()
-    sure[poor] = better.sure
-    return Zeros(each[0], each[1], each[2], sure)
+    if not len(poor):
+        return first
+    good = zeros.sure
+    second = fine(entries.at(poor))
+    kept = Zeros(zeros.V[:, good], zeros.rest[:, good], zeros.radius[:, good], zeros.sure[good])
+    return _together([(good, kept, first[1][good]), (~good, *second)], len(good))
 
 
-def _any(entries: Entries, name: str, number: int) -> tuple[Zeros, Sequence[Twofold | Double | None]]:
+def _any(entries: Entries, name: str) -> Found:
     """Tables of other systems, with any powers of V."""
     rows = _rows(entries.numbers)
     polynomial = hurwitz3_of(rows) if name == "hurwitz3" else rows[CONDITIONS.index(name)]
-    return zeros_of(polynomial, number), polynomial
+    return _found(zeros_of(polynomial, len(entries)), polynomial)
 
 
 def _rows(numbers: dict[tuple[int, int], T]) -> list[list[T | None]]:
@@ -172,13 +168,13 @@ def _rows(numbers: dict[tuple[int, int], T]) -> list[list[T | None]]:
     return [[numbers.get((k, j)) for j in range(4)] for k in range(5)]
 
 
-def _sign_near_zero(polynomial: Sequence[Twofold | Double | None], number: int) -> Floats:
-    """The sign just right of zero."""
-    sign = np.zeros(number)
+def _found(zeros: Zeros, polynomial: Sequence[Twofold | Double | None]) -> Found:
+    """Zeros, and the sign just right of V = 0."""
+    sign = np.zeros(len(zeros.sure))
     for a in polynomial:
         if a is not None:
             sign = np.where(sign == 0, np.sign(a.value), sign)
-    return sign
+    return zeros, sign
 
 
 def _none(number: int) -> Zeros:
@@ -186,7 +182,7 @@ def _none(number: int) -> Zeros:
     return Zeros(nothing, nothing, nothing, np.ones(number, bool))
 
 
-def _together(parts: list[tuple[NDArray[np.bool_], Zeros, Floats]], number: int) -> tuple[Zeros, Floats]:
+def _together(parts: list[tuple[NDArray[np.bool_], Zeros, Floats]], number: int) -> Found:
     if len(parts) == 1:
         return parts[0][1:]
     most = max((len(zeros.V) for _, zeros, _ in parts), default=0)

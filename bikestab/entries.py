@@ -36,6 +36,9 @@ class Entries:
         """Some of the cells."""
         return Entries({key: a.at(cells) for key, a in self.numbers.items()})
 
+    def __len__(self) -> int:
+        return len(self.numbers[4, 0].value)
+
     def double(self, k: int, j: int) -> Double:
         """One of them in double precision."""
         a = self.numbers[k, j]
