@@ -18,7 +18,7 @@ from bikestab.limits import check_product, check_tilt, check_trail, check_value,
 from bikestab.notation import MEIJAARD, OPTIONAL, two_parts
 from bikestab.presets import preset_names, preset_text
 from bikestab.texts import is_file
-from bikestab.units import ANGLE, PURE, quantity, shown
+from bikestab.units import quantity, shown, units_in
 
 
 def _parameter(unit: str, meaning: str, check: str = "", **default: Any) -> Any:
@@ -79,7 +79,7 @@ class Bicycle:
             value = getattr(self, p.name)
             if value is None and p.name in ("lam", "sigma"):
                 continue
-            number = quantity(value, ANGLE if p.name == "lam" else PURE, key=(p.name,))
+            number = quantity(value, units_in(PAPER[p.name]), key=(p.name,))
             check_value(p.name, number, p.metadata["check"], PAPER[p.name])
             object.__setattr__(self, p.name, number)
         if self.lam is not None:
@@ -166,9 +166,7 @@ class Bicycle:
                     key=(str(key),),
                     hint=nearest(str(key), [*notation, "name", "source"]),
                 )
-        numbers = {
-            key: quantity(value, ANGLE if key == "lam" else PURE, key=(key,)) for key, value in values.items()
-        }
+        numbers = {k: quantity(value, units_in(notation[k]), key=(k,)) for k, value in values.items()}
         if notation is MEIJAARD:
             _require(numbers, [key for key in MEIJAARD if key not in OPTIONAL])
             bicycle = cls(**two_parts(numbers), name=texts["name"], source=texts["source"])

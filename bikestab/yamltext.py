@@ -18,7 +18,7 @@ _PLAIN = re.compile(  # one entry of what ``plain`` reads
     r"""(?:\#.*)?\n  # a comment, or nothing
     | (?P<key>(?!(?i:null|true|false):)[A-Za-z]\w*):[ ]+
       (?: (?: (?P<number>-?\d{1,15}(?P<point>\.\d{1,15})?)
-            | (?P<word>\d{1,15}deg|[a-z]+\d+)) (?:[ ]+\#.*)?\n
+            | (?P<word>-?\d{1,15}(?:\.\d{1,15})?(?:deg|mm|cm|m|in|kg|g|lb)|[a-z]+\d+)) (?:[ ]+\#.*)?\n
         | >-\n (?P<lines>(?:[ ]{2}\S.*\n)+) )""",
     re.ASCII | re.VERBOSE,
 )
@@ -151,8 +151,8 @@ def _way(node: Node, key: KeyPath) -> list[Node]:
 def plain(text: str) -> dict[str, int | float | str] | None:
     """The mapping in YAML that is plainly one, such as the presets; None where it takes ``parse`` to know.
 
-    Plain are comments, ``key: 1.5``, ``key: 18deg``, ``key: word1`` and ``key: >-`` with lines below it. The
-    result is that of ``parse``, without the time to import and run ruamel, a fifth of vrange's.
+    Plain are comments, ``key: 1.5``, ``key: 18deg``, ``key: 55mm``, ``key: word1`` and ``key: >-`` with lines
+    below it. The result is that of ``parse``, without the time to import and run ruamel, a fifth of vrange's.
     """
     values: dict[str, int | float | str] = {}
     end = 0

@@ -1,12 +1,26 @@
 """Numbers with and without a unit."""
 
 import math
+import time
+from contextlib import suppress
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
 from bikestab.errors import InputError
-from bikestab.units import ANGLE, PURE, SPEED, quantity
+from bikestab.units import (
+    ACCELERATION,
+    ANGLE,
+    DAMPING,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PURE,
+    SPEED,
+    quantity,
+    units_in,
+)
 
 
 @pytest.mark.parametrize(
@@ -27,6 +41,18 @@ from bikestab.units import ANGLE, PURE, SPEED, quantity
         ("5m/s", SPEED, 5.0),
         ("100mph", SPEED, 44.704),  # 160934.4 m in 3600 s
         ("0.3", ANGLE, 0.3),
+        ("20 kn", SPEED, 37040 / 3600),
+        ("55mm", LENGTH, 0.055),
+        ("5.5 cm", LENGTH, 0.055),
+        ("2.1in", LENGTH, 0.05334),
+        ("3ft", LENGTH, 0.9144),
+        ("-1e2mm", LENGTH, -0.1),
+        ("850g", MASS, 0.85),
+        ("187 lb", MASS, 84.82177319),  # 187 · 0.45359237
+        ("32.174ft/s²", ACCELERATION, 9.8066352),
+        ("2 N m s", DAMPING, 2.0),
+        ("1.4e5 kg mm²", INERTIA, 0.14),
+        ("1 lb in²", INERTIA, 0.45359237 * 0.0254**2),
     ],
 )
 def test_understood(text, units, expected):
@@ -45,6 +71,7 @@ def test_numbers_of_numpy_are_numbers(number):
     "nonsense",
     [
         "", " ", "abc", "1 2", "1,5", "1e", "--1", "0x10", "1_000", "deg", "3 furlongs", "nan", "inf", "1:2",
+        "5,5cm", "1 000 mm", "5m m", "m5", "1.2.3", "3 k g",
         True, False, np.True_, None, [], [1], {}, b"1", 1 + 2j,
     ],
 )  # fmt: skip
@@ -66,17 +93,81 @@ def test_a_number_too_long_to_print(value):
     assert len(str(caught.value)) < 200
 
 
-@pytest.mark.parametrize(("text", "units"), [("18deg", SPEED), ("20km/h", ANGLE), ("3m/s", PURE)])
-def test_a_unit_of_something_else(text, units):
-    with pytest.raises(InputError, match="is not a number"):
+@pytest.mark.parametrize(
+    ("text", "units", "problem"),
+    [
+        ("18deg", SPEED, "it is an angle, not a speed"),
+        ("20km/h", ANGLE, "it is a speed, not an angle"),
+        ("3m/s", PURE, "it is a speed, not a plain number"),
+        ("55mm", MASS, "it is a length, not a mass"),
+        ("5 kg m^2", LENGTH, "it is a moment of inertia, not a length"),
+    ],
+)
+def test_a_unit_of_something_else(text, units, problem):
+    with pytest.raises(InputError) as caught:
         quantity(text, units)
+    assert caught.value.problem == f"'{text}' is not a number: {problem}"
+
+
+@pytest.mark.parametrize(
+    "text", ["0.14 kg m²", "0.14kg m^2", "0.14 kg*m^2", "0.14 kg·m²", "0.14 kg  m**2", "0.14 kg m2"]
+)
+def test_spellings_of_a_moment_of_inertia(text):
+    assert quantity(text, INERTIA) == 0.14
+
+
+@pytest.mark.parametrize(("unit", "thousandth"), [("mm", LENGTH), ("g", MASS)])
+def test_thousandths_are_right_to_the_last_bit(unit, thousandth):
+    for number in range(1, 2000):
+        assert quantity(f"{number}{unit}", thousandth) == float(Fraction(number, 1000))
+
+
+@pytest.mark.parametrize(
+    ("text", "units", "hint"),
+    [
+        ("5,5cm", LENGTH, "write '5.5cm'"),
+        ("18,5 deg", ANGLE, "write '18.5 deg'"),
+        ("20kmh", SPEED, "did you mean 'km/h'?"),
+        ("2inch", LENGTH, "did you mean 'in'?"),
+        ("5 lbs", MASS, "did you mean 'lb'?"),
+        ("5MM", LENGTH, "did you mean 'mm'?"),
+    ],
+)
+def test_what_was_meant(text, units, hint):
+    with pytest.raises(InputError, match="is not a number") as caught:
+        quantity(text, units)
+    assert caught.value.hint.startswith(hint)
+
+
+@pytest.mark.parametrize("text", ["1{} x y", "1{}", "{}1", "1{}mm mm", "1,5{}cm", "1,5{}c m"])
+def test_time_grows_with_length_and_not_with_its_square(text):
+    start = time.process_time()
+    for blank in (" ", "\t", "m", "*", "^"):
+        with suppress(InputError):
+            quantity(text.format(blank * 200_000), LENGTH)
+    assert time.process_time() - start < 2
+
+
+@pytest.mark.parametrize(
+    ("meaning", "units"),
+    [
+        ("wheelbase [m]", LENGTH),
+        ("inertia [kg m²]", INERTIA),
+        ("[1]", PURE),
+        ("", PURE),
+        ("g [m/s²]", ACCELERATION),
+    ],
+)
+def test_units_of_a_parameter(meaning, units):
+    assert units_in(meaning) == units
 
 
 def test_the_message_names_key_value_and_units():
     with pytest.raises(InputError) as caught:
         quantity("18grad", ANGLE, key=("grid", "lam", "stop"))
     assert str(caught.value) == (
-        "grid.lam.stop: '18grad' is not a number\nallowed: a number, or one with a unit (rad, deg, °)"
+        "grid.lam.stop: '18grad' is not a number with a unit that is known\n"
+        "did you mean 'rad'? allowed: a number, or one with a unit (rad, deg, °)"
     )
 
 

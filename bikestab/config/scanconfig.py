@@ -33,15 +33,16 @@ from bikestab.config.values import (
     TrailAxis,
     UpperSpeed,
     Within,
+    json_schema,
     mistake,
 )
-from bikestab.config.variation import SWEPT, Ensemble
+from bikestab.config.variation import SWEPT, Ensemble, with_units
 from bikestab.errors import InputError, nearest
 from bikestab.fields import AXES, Axis, askable
 from bikestab.model import Floats, Model
 from bikestab.notation import MEIJAARD
 from bikestab.presets import preset_names
-from bikestab.units import shown
+from bikestab.units import shown, units_in
 
 
 def _field(value: object) -> str:
@@ -124,7 +125,7 @@ def _bicycle(value: object) -> Bicycle:
 _PARAMETERS = {
     "type": "object",
     "properties": {
-        key: {"description": text, "type": ["number", "string"] if key == "lam" else "number"}
+        key: {"description": text, **json_schema(units_in(text))}
         for key, text in {**PAPER, **MEIJAARD}.items()
     }
     | {"name": {"type": "string"}, "source": {"type": "string"}},
@@ -156,6 +157,7 @@ class ScanConfig(Strict):
     ]
     sweep: Annotated[
         dict[str, NumberAxis],
+        BeforeValidator(lambda given: with_units(given, "sweep")),
         Field(
             description="axes over parameters of the bicycle, in its notation",
             json_schema_extra={"propertyNames": {"enum": SWEPT}},

@@ -23,7 +23,7 @@ from pydantic_core import PydanticCustomError
 from bikestab.errors import InputError
 from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.model import Floats
-from bikestab.units import ANGLE, PURE, SPEED, quantity
+from bikestab.units import ANGLE, DAMPING, PURE, SPEED, Units, quantity, units_in
 
 ABSENT: Any = None  # a key that may be missing, while null would be no number
 
@@ -33,7 +33,7 @@ def mistake(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> Pydanti
     return PydanticCustomError("bikestab", "{problem}", {"problem": problem, "hint": hint, "key": key})
 
 
-def _reads(units: dict[str, float], check: str = "") -> BeforeValidator:
+def _reads(units: Units, check: str = "") -> BeforeValidator:
     def validate(value: object) -> float:
         words = ", or unbounded" if check == "upper speed" else ""
         if words and value == "unbounded":
@@ -59,9 +59,31 @@ def _reads(units: dict[str, float], check: str = "") -> BeforeValidator:
     return BeforeValidator(validate)
 
 
-def _schema(units: dict[str, float], *words: str) -> WithJsonSchema:
-    text = {"type": "string", "pattern": rf"^\s*[-+.\d][-+.\deE]*\s*({'|'.join(units)})?\s*$"}
-    return WithJsonSchema({"anyOf": [{"type": "number"}, text, *({"const": word} for word in words)]})
+def json_schema(units: Units, *words: str) -> dict[str, Any]:
+    """The JSON Schema of a number with or without one of these units, or one of the ``words``."""
+    text = {"type": "string", "pattern": rf"^\s*[-+.\d][-+.\deE]*(\s*({'|'.join(units)}))?\s*$"}
+    return {"anyOf": [{"type": "number"}, text, *({"const": word} for word in words)]}
+
+
+def _schema(units: Units, *words: str) -> WithJsonSchema:
+    return WithJsonSchema(json_schema(units, *words))
+
+
+_ANY_UNIT = {"type": "string", "pattern": r"^\s*[-+.\d][-+.\deE]*\s*([^-+.\d\s].*)?$"}
+
+
+def in_si(value: Any, meaning: str, key: tuple[str | int, ...]) -> Any:
+    """The same with every text that stands for a number of the unit in ``meaning`` as that number."""
+    if isinstance(value, dict):
+        return {name: in_si(inner, meaning, (*key, name)) for name, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [in_si(inner, meaning, (*key, i)) for i, inner in enumerate(value)]
+    if not isinstance(value, str):
+        return value
+    try:
+        return quantity(value, units_in(meaning))
+    except InputError as error:
+        raise mistake(error.problem, error.hint, key) from None
 
 
 Tilt: TypeAlias = Annotated[float, _reads(ANGLE, "tilt"), _schema(ANGLE)]
@@ -69,8 +91,8 @@ Trail: TypeAlias = Annotated[float, _reads(PURE, "trail")]
 Speed: TypeAlias = Annotated[float, _reads(SPEED, "speed"), _schema(SPEED)]
 UpperSpeed: TypeAlias = Annotated[float, _reads(SPEED, "upper speed"), _schema(SPEED, "unbounded")]
 Within: TypeAlias = Annotated[float, _reads(SPEED, "positive"), _schema(SPEED)]
-Damping: TypeAlias = Annotated[float, _reads(PURE, "not negative")]
-Number: TypeAlias = Annotated[float, _reads(PURE)]
+Damping: TypeAlias = Annotated[float, _reads(DAMPING, "not negative"), _schema(DAMPING)]
+Number: TypeAlias = Annotated[float, _reads(PURE), WithJsonSchema({"anyOf": [{"type": "number"}, _ANY_UNIT]})]
 Share: TypeAlias = Annotated[
     float, _reads(PURE, "share"), Field(json_schema_extra={"exclusiveMinimum": 0, "exclusiveMaximum": 1})
 ]

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, model_validator
 
 from bikestab.bicycle import PAPER, Bicycle
-from bikestab.config.values import ABSENT, Number, Share, Strict, increasing, mistake
+from bikestab.config.values import ABSENT, Number, Share, Strict, in_si, increasing, mistake
 from bikestab.errors import nearest
 from bikestab.machines import Machines, standard_normal, uniforms
 from bikestab.model import Floats
@@ -65,6 +65,16 @@ class Distribution(Strict):
         return low + (high - low) * uniform
 
 
+def with_units(given: Any, where: str) -> Any:
+    """What a config says of parameters, ``where`` it does, with numbers for texts with units."""
+    if not isinstance(given, dict):
+        return given
+    return {
+        name: in_si(value, BOTH[name], (where, name)) if name in BOTH else value
+        for name, value in given.items()
+    }
+
+
 class Ensemble(Strict):
     """Parameters drawn at random; the other keys are theirs."""
 
@@ -97,7 +107,7 @@ class Ensemble(Strict):
                     nearest(key, [*cls.model_fields, *SWEPT]),
                     ("ensemble", key),
                 )
-        return given
+        return with_units(given, "ensemble")
 
     @model_validator(mode="after")
     def _something(self) -> Ensemble:

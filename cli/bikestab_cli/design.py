@@ -9,6 +9,7 @@ import click
 from bikestab_cli.options import (
     ANGLE_ENDS,
     FILE,
+    LENGTH_ENDS,
     SPEED_ENDS,
     SPEED_VALUE,
     TRAIL_ENDS,
@@ -42,7 +43,9 @@ if TYPE_CHECKING:
     show_default=True,
     help="Trails divided by the wheelbase; one value fixes the trail.",
 )
-@click.option("--trail", type=TRAIL_ENDS, metavar="START:STOP", help="Trails [m]; cuts --sigma.")
+@click.option(
+    "--trail", type=LENGTH_ENDS, metavar="START:STOP", help="Trails, such as 40mm:80mm; cuts --sigma."
+)
 @click.option(
     "--V",
     "judged",

@@ -13,7 +13,7 @@ import click
 
 from bikestab.errors import InputError
 from bikestab.files import check_writable
-from bikestab.units import ANGLE, PURE, SPEED, quantity
+from bikestab.units import ANGLE, DAMPING, LENGTH, PURE, SPEED, Units, quantity, units_in
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -27,7 +27,7 @@ MOST_VALUES = 1_000_000
 class Quantity(click.ParamType):
     """A number with or without a unit."""
 
-    def __init__(self, name: str, units: dict[str, float]) -> None:
+    def __init__(self, name: str, units: Units) -> None:
         self.name, self.units = name, units
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
@@ -56,6 +56,7 @@ class QuantityRange(Quantity):
         if len(parts) != 3:
             self.fail(f"{value!r} is neither a number nor START:STOP:NUM, e.g. 0.05:0.3:6", param, ctx)
         start, stop = (super(QuantityRange, self).convert(part, param, ctx) for part in parts[:2])
+        _tell_of_mixed_units(parts[:2], self.units)
         if not parts[2].strip().isdecimal() or not 2 <= int(parts[2]) <= MOST_VALUES:
             self.fail(
                 f"{parts[2]!r} in {value!r} is not a number of values from 2 to {MOST_VALUES}", param, ctx
@@ -74,7 +75,16 @@ class QuantityEnds(Quantity):
         if len(parts) > 2:
             self.fail(f"{value!r} is neither a number nor START:STOP", param, ctx)
         start, stop = (super(QuantityEnds, self).convert(part, param, ctx) for part in (parts[0], parts[-1]))
+        _tell_of_mixed_units(parts, self.units)
         return start, stop
+
+
+def _tell_of_mixed_units(ends: list[str], units: Units) -> None:
+    """Say in which unit an end without one is read, where the other end has one."""
+    bare = [end for end in ends if end.strip()[-1:] in set("0123456789.")]
+    if len(bare) != 1 or len(ends) == 1 or not quantity(bare[0], units):
+        return
+    click.echo(f"note: {bare[0].strip()} in '{':'.join(ends)}' is in {next(iter(units))}", err=True)
 
 
 class Name(click.ParamType):
@@ -95,22 +105,19 @@ class Name(click.ParamType):
 
 
 NAME, FILE = Name(), Name(of_file=True)
-ANGLE_VALUE, TRAIL_VALUE, SPEED_VALUE = (
-    Quantity(name, units) for name, units in (("angle", ANGLE), ("number", PURE), ("speed", SPEED))
-)
-ANGLES, TRAILS, SPEEDS = (
-    QuantityRange(name, units) for name, units in (("angle", ANGLE), ("number", PURE), ("speed", SPEED))
-)
-ANGLE_ENDS, TRAIL_ENDS, SPEED_ENDS = (
-    QuantityEnds(name, units) for name, units in (("angle", ANGLE), ("number", PURE), ("speed", SPEED))
-)
+_KINDS: tuple[tuple[str, Units], ...] = (
+    ("angle", ANGLE), ("number", PURE), ("speed", SPEED), ("length", LENGTH),
+)  # fmt: skip
+ANGLE_VALUE, TRAIL_VALUE, SPEED_VALUE, LENGTH_VALUE = (Quantity(*kind) for kind in _KINDS)
+ANGLES, TRAILS, SPEEDS, LENGTHS = (QuantityRange(*kind) for kind in _KINDS)
+ANGLE_ENDS, TRAIL_ENDS, SPEED_ENDS, LENGTH_ENDS = (QuantityEnds(*kind) for kind in _KINDS)
 
 
 def machine_options(function: F) -> F:
     """--bicycle, --model and --delta."""
     for option in (
         click.option(
-            "--delta", type=Quantity("number", PURE),
+            "--delta", type=Quantity("number", DAMPING),
             help="Steering damping δ [kg m²/s], instead of the bicycle's own.",
         ),
         click.option(
@@ -134,10 +141,17 @@ def _machine(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) 
         if not equals:
             raise click.BadParameter(f"{text!r} is not NAME=VALUE, e.g. delta=1", param=option)
         try:
-            values[name.strip()] = quantity(number, PURE)
+            values[name.strip()] = quantity(number, _units_of(name.strip()))
         except InputError as error:
             raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
     return values
+
+
+def _units_of(parameter: str) -> Units:
+    from bikestab.bicycle import PAPER
+    from bikestab.notation import MEIJAARD
+
+    return units_in({**PAPER, **MEIJAARD}.get(parameter, ""))
 
 
 at_option = click.option(

@@ -107,9 +107,9 @@ def test_a_mistake_in_the_file_is_not_blamed_on_an_override():
         # numbers
         (change("stop: 10", "stop: .nan"), 5, "grid.V.stop: nan is not finite", "allowed: a number"),
         (change("stop: 10", "stop: .inf"), 5, "grid.V.stop: inf is not finite", "allowed: a number"),
-        (change("stop: 10", "stop: fast"), 5, "grid.V.stop: 'fast' is not a number", "(m/s, km/h, mph)"),
+        (change("stop: 10", "stop: fast"), 5, "grid.V.stop: 'fast' is not a number", "(m/s, km/h, mph, kn)"),
         (change("stop: 10", "stop: true"), 5, "grid.V.stop: True is not a number", "allowed: a number"),
-        (change("stop: 10", "stop: 18deg"), 5, "grid.V.stop: '18deg' is not a number", "(m/s, km/h, mph)"),
+        (change("stop: 10", "stop: 18deg"), 5, "grid.V.stop: '18deg' is not a number", "(m/s, km/h, mph"),
         (change("stop: 10", "stop: ~"), 5, "grid.V.stop: nothing is not a number", "allowed: a number"),
         (change("stop: 10", "stop: [1]"), 5, "grid.V.stop: [1] is not a number", "allowed: a number"),
         (change("start: 0, stop: 10", "start: -1, stop: 10"), 5, "grid.V.start: -1 is a speed backwards",

@@ -292,3 +292,33 @@ def test_what_loads_fits_the_schema(line):
 def test_what_the_schema_refuses_does_not_load(line):
     assert not fits_the_schema(GOOD + line + "\n")
     message(GOOD + line + "\n")
+
+
+WITH_UNITS = """\
+bicycle: meijaard2007
+delta: 1 N m s
+grid: {lam: {values: [0, 18deg]}, sigma: {values: [0, 0.1]}, V: {start: 0, stop: 20mph, num: 2}}
+sweep: {mB: {start: 60000 g, stop: 100kg, num: 3}, zB: [-90cm, -0.8]}
+ensemble: {IFyy: {normal: [2.8e5 kg mm², 0.01]}, samples: 2}
+"""
+
+
+def test_numbers_of_a_variation_may_have_units():
+    config = load(WITH_UNITS)
+    assert config.sweep["mB"].points.tolist() == [60, 80, 100]
+    assert config.sweep["zB"].points.tolist() == [-0.9, -0.8]
+    assert config.ensemble.parameters["IFyy"].normal == (0.28, 0.01)
+    jsonschema.validate(YAML(typ="safe").load(WITH_UNITS), config_schema())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("100kg", "100m", "line 4: sweep.mB.stop: '100m' is not a number: it is a length, not a mass"),
+        ("-90cm", "-90kg", "line 4: sweep.zB[0]: '-90kg' is not a number: it is a mass, not a length"),
+        ("2.8e5 kg mm²", "3 m", "line 5: ensemble.IFyy.normal[0]: '3 m' is not a number: it is a length"),
+        ("1 N m s", "1 kg", "line 2: delta: '1 kg' is not a number: it is a mass, not a damping"),
+    ],
+)
+def test_wrong_units_are_told_with_their_place(old, new, told):
+    assert message(WITH_UNITS.replace(old, new)).startswith(f"scan.yaml, {told}")
