@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,10 +11,10 @@ from bikestab.bicycle import Bicycle
 from bikestab.paper1981 import claims
 from bikestab.paper1981.box import PAPER_BOX, DesignBox
 from bikestab.paper1981.claims import Verdict
-from bikestab.paper1981.damping import marked_from
+from bikestab.paper1981.damping import marked_from_each
 from bikestab.paper1981.finite_interval import exceptions
-from bikestab.paper1981.maps import Shares, map_designs, region_volume
-from bikestab.paper1981.margin import margins_on_grid
+from bikestab.paper1981.maps import DesignMap, Shares, map_each, region_volume
+from bikestab.paper1981.margin import GridMargin, margins_on_grid
 from bikestab.paper1981.widening import Trends, trends
 
 
@@ -52,11 +53,25 @@ class JudgedMachine:
     forwards: Judgement
 
 
-def judge_machine(bicycle: Bicycle, n: int, box: DesignBox = PAPER_BOX) -> JudgedMachine:
-    """The four verdicts from n × n designs, a third as many along each side for margin and damping."""
-    inside, around = map_designs(bicycle, n, box), map_designs(bicycle, n, box.wider)
-    all_margins, forward_margins = margins_on_grid(bicycle, n // 3, box)
-    all_marked, forward_marked = marked_from(bicycle, n // 3, box)
+def judge_each(bicycles: Sequence[Bicycle], n: int, box: DesignBox = PAPER_BOX) -> list[JudgedMachine]:
+    """The four verdicts on each bicycle, from n × n designs.
+
+    Margin and damping are from a third as many along each side.
+    """
+    found = (
+        map_each(bicycles, n, box), map_each(bicycles, n, box.wider), marked_from_each(bicycles, n // 3, box),
+        [margins_on_grid(bicycle, n // 3, box) for bicycle in bicycles],
+    )  # fmt: skip
+    return [_judged(box, *each) for each in zip(*found, strict=True)]
+
+
+def _judged(
+    box: DesignBox,
+    inside: DesignMap,
+    around: DesignMap,
+    marked: tuple[float | None, float | None],
+    margins: tuple[GridMargin, GridMargin],
+) -> JudgedMachine:
     return JudgedMachine(
         box=box,
         volume=region_volume(inside, box),
@@ -64,11 +79,11 @@ def judge_machine(bicycle: Bicycle, n: int, box: DesignBox = PAPER_BOX) -> Judge
         formula_disagreements=int(np.count_nonzero(inside.formula != inside.unbounded)),
         everywhere=_judgement(
             inside.shares, around.shares, trends(inside, inside.widest),
-            all_margins.judged_by.apart, all_marked,
+            margins[0].judged_by.apart, marked[0],
         ),
         forwards=_judgement(
             inside.shares_forwards, around.shares_forwards, trends(inside, inside.widest_forwards),
-            forward_margins.judged_by.apart, forward_marked,
+            margins[1].judged_by.apart, marked[1],
         ),
     )  # fmt: skip
 

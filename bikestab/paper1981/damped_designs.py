@@ -8,6 +8,7 @@ import numpy as np
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
+from bikestab.machines import Machines
 from bikestab.model import characteristic_table, coefficients
 from bikestab.paper1981 import claims
 from bikestab.region.lines import lowest_stable
@@ -61,8 +62,7 @@ def relative(now: float | None, before: float | None) -> float | None:
 
 
 def _single_design(bicycle: Bicycle, lam: float, sigma: float, deltas: tuple[float, ...]) -> DampedDesign:
-    without = _ends(bicycle, lam, sigma, 0.0)
-    sweep = [_ends(bicycle, lam, sigma, delta) for delta in deltas]
+    without, *sweep = _ends(bicycle, lam, sigma, (0.0, *deltas))
     b1 = float(coefficients(bicycle, lam, sigma).b1.value)
     V1, V2 = ([relative(getattr(row, key), getattr(without, key)) for row in sweep] for key in ("V1", "V2"))
     onset = None if without.V1 else _onset(bicycle, lam, sigma, deltas[-1])
@@ -74,7 +74,7 @@ def _single_design(bicycle: Bicycle, lam: float, sigma: float, deltas: tuple[flo
         V1_marked_from=claims.first_marked(deltas, V1) if without.V1 else None,
         V2_marked_from=claims.first_marked(deltas, V2) if without.V2 else None,
         stable_from=onset,
-        at_onset=_ends(bicycle, lam, sigma, onset * (1 + 1e-9)) if onset else None,
+        at_onset=_ends(bicycle, lam, sigma, (onset * (1 + 1e-9),))[0] if onset else None,
         kinematic_damping=b1 * without.V1 / bicycle.c if without.V1 else None,
     )
 
@@ -86,10 +86,15 @@ def _onset(bicycle: Bicycle, lam: float, sigma: float, most: float) -> float | N
     return None if np.isnan(lowest) else lowest
 
 
-def _ends(bicycle: Bicycle, lam: float, sigma: float, delta: float) -> Ends:
-    intervals = intervals_of(characteristic_table(bicycle.with_delta(delta), lam, sigma))
-    if not intervals.upper[0]:
+def _ends(bicycle: Bicycle, lam: float, sigma: float, deltas: tuple[float, ...]) -> list[Ends]:
+    """The first stable interval with each δ."""
+    machines = Machines.varied(bicycle, {"delta": np.array(deltas)}, (len(deltas),))
+    intervals = intervals_of(characteristic_table(machines, lam, sigma))
+    first = (field[:, 0].tolist() for field in intervals)
+    return [_named(delta, *each) for delta, *each in zip(deltas, *first, strict=True)]
+
+
+def _named(delta: float, V1: float, V2: float, lower: int, upper: int) -> Ends:
+    if not upper:
         return Ends(delta, None, None, None, None)
-    V1, V2 = float(intervals.V1[0]), float(intervals.V2[0])
-    kinds = KINDS[intervals.lower[0]], KINDS[intervals.upper[0]]
-    return Ends(delta, V1, V2 if np.isfinite(V2) else None, *kinds)
+    return Ends(delta, V1, V2 if np.isfinite(V2) else None, KINDS[lower], KINDS[upper])

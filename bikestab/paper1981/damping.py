@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from bikestab.bicycle import Bicycle
-from bikestab.family import Family
-from bikestab.model import Floats, characteristic_table
+from bikestab.model import Floats
 from bikestab.paper1981 import claims
-from bikestab.paper1981.box import PAPER_BOX, DesignBox, middles
+from bikestab.paper1981.box import PAPER_BOX, DesignBox
 from bikestab.paper1981.damped_designs import DampedDesign, relative, single_designs
-from bikestab.paper1981.forks import bent_forwards
-from bikestab.paper1981.maps import Flags, has_unbounded, widths
-from bikestab.region.lines import lowest_stable
-from bikestab.speeds import WEAVE, intervals_of
+from bikestab.paper1981.damped_region import (
+    Choice,
+    Region,
+    choices,
+    exact_sigma_min,
+    fold_lams,
+    regions,
+    sampled_sigma_min,
+)  # fmt: skip
 
 DELTAS = tuple(float(f"{delta:.4g}") for delta in np.logspace(-3, 1, 21))  # kg m²/s
 FEW = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 10.0)
 SHOWN = (0.001, 0.01, 0.1, 1.0, 10.0)  # in the report's tables
-FOLDS = (1 / 3, 2 / 3, 1.0)  # of the largest λ: where the smallest stable σ is followed
-_ROUNDS, _SAMPLES = 4, 60  # of sampling a line for its smallest stable σ
 
 
 class Measures(NamedTuple):
@@ -82,27 +83,17 @@ class Damping:
     single_designs: list[DampedDesign]
 
 
-class _Region(NamedTuple):
-    """The stable region of a grid of designs."""
-
-    p0: Floats
-    width: Floats
-    V1: Floats
-    unbounded: Flags
-    sigma_min: list[float | None]
-
-
 def damping(bicycle: Bicycle, n: int, deltas: tuple[float, ...] = DELTAS) -> Damping:
     """The numbers behind conclusion 4, from n × n designs."""
     box = PAPER_BOX
-    smallest = partial(_exact_sigma_min, box=box)
-    still, *damped = (_region(bicycle.with_delta(delta), n, box, smallest) for delta in (0.0, *deltas))
-    everywhere, forwards = (_sweep(deltas, still, damped, among, box) for among in _choices(bicycle, n, box))
+    bicycles = [bicycle.with_delta(delta) for delta in (0.0, *deltas)]
+    still, *damped = regions(bicycles, n, box, exact_sigma_min)
+    everywhere, forwards = (_sweep(deltas, still, damped, among, box) for among in choices(bicycle, n, box))
     return Damping(
         designs=n * n,
         deltas=list(deltas),
         shown=[delta for delta in SHOWN if delta in deltas],
-        folds_at_lam=_fold_lams(box).tolist(),
+        folds_at_lam=fold_lams(box).tolist(),
         p0_change=max(float(np.abs(region.p0 - still.p0).max()) for region in damped),
         unbounded_changed=max(int(np.count_nonzero(r.unbounded != still.unbounded)) for r in damped),
         everywhere=everywhere,
@@ -111,90 +102,40 @@ def damping(bicycle: Bicycle, n: int, deltas: tuple[float, ...] = DELTAS) -> Dam
     )
 
 
-def marked_from(
-    bicycle: Bicycle, n: int, box: DesignBox = PAPER_BOX, deltas: tuple[float, ...] = FEW
-) -> tuple[float | None, float | None]:
+def marked_from_each(
+    bicycles: Sequence[Bicycle], n: int, box: DesignBox = PAPER_BOX, deltas: tuple[float, ...] = FEW
+) -> list[tuple[float | None, float | None]]:
     """The lowest δ [kg m²/s] from which any measure is marked, of all designs and of forks bent forwards.
 
-    None if none is. From n × n designs; smallest trails are found by sampling.
+    None if none is. For each bicycle, from n × n designs; smallest trails are found by sampling.
     """
-    smallest = partial(_sampled_sigma_min, box=box)
-    choices = _choices(bicycle, n, box)
-    still = _region(bicycle.with_delta(0.0), n, box, smallest)
-    damped: list[_Region] = []
-    marked: list[float | None] = [None, None]
-    while None in marked and len(damped) < len(deltas):  # a larger δ changes nothing where one is marked
-        damped.append(_region(bicycle.with_delta(deltas[len(damped)]), n, box, smallest))
-        here = deltas[: len(damped)]
-        marked = [_sweep(here, still, damped, among, box).marked_from for among in choices]
-    return marked[0], marked[1]
+    among = [choices(bicycle, n, box) for bicycle in bicycles]
+    still = regions([bicycle.with_delta(0.0) for bicycle in bicycles], n, box, sampled_sigma_min)
+    damped: list[list[Region]] = [[] for _ in bicycles]
+    marked: list[tuple[float | None, float | None]] = [(None, None)] * len(bicycles)
+    for number, delta in enumerate(deltas, 1):
+        left = [i for i, found in enumerate(marked) if None in found]  # a larger δ changes nothing else
+        bicycles_left = [bicycles[i].with_delta(delta) for i in left]
+        for i, region in zip(left, regions(bicycles_left, n, box, sampled_sigma_min), strict=True):
+            damped[i].append(region)
+            whole, forwards = (
+                _sweep(deltas[:number], still[i], damped[i], a, box).marked_from for a in among[i]
+            )
+            marked[i] = whole, forwards
+    return marked
 
 
-def _fold_lams(box: DesignBox) -> Floats:
-    return np.array(FOLDS) * box.lam[1]
-
-
-class _Choice(NamedTuple):
-    """Which designs of the grid, and which (λ, σ) in general, are looked at."""
-
-    grid: Flags
-    design: Callable[[float, float], bool]
-
-
-def _choices(bicycle: Bicycle, n: int, box: DesignBox) -> tuple[_Choice, _Choice]:
-    x, y = middles(box.lam, n)[:, np.newaxis], middles(box.sigma, n)
-    forwards = bent_forwards(bicycle, x, y)
-    return (
-        _Choice(np.ones_like(forwards), lambda lam, sigma: True),
-        _Choice(forwards, lambda lam, sigma: bool(bent_forwards(bicycle, lam, sigma))),
-    )
-
-
-Smallest = Callable[[Bicycle], list[float]]
-
-
-def _region(bicycle: Bicycle, n: int, box: DesignBox, smallest: Smallest) -> _Region:
-    table = characteristic_table(bicycle, middles(box.lam, n)[:, np.newaxis], middles(box.sigma, n))
-    intervals = intervals_of(table)
-    weave = intervals.lower[..., 0] == WEAVE
-    return _Region(
-        p0=table[0],
-        width=widths(intervals).sum(axis=-1),
-        V1=np.where(weave, intervals.V1[..., 0], np.nan),
-        unbounded=has_unbounded(intervals),
-        sigma_min=[None if np.isnan(sigma) else sigma for sigma in smallest(bicycle)],
-    )
-
-
-def _exact_sigma_min(bicycle: Bicycle, box: DesignBox) -> list[float]:
-    """The smallest σ with a stable speed at each λ of FOLDS, NaN where there is none."""
-    return lowest_stable(Family(bicycle), *box.sigma, x=_fold_lams(box)).tolist()
-
-
-def _sampled_sigma_min(bicycle: Bicycle, box: DesignBox) -> list[float]:
-    """As ``_exact_sigma_min``, to 1e-6 of the range, where the stable σ are no less than 1/60 of it."""
-    lam = _fold_lams(box)[:, np.newaxis]
-    low, high = (np.full(lam.shape, end) for end in box.sigma)
-    for _ in range(_ROUNDS):
-        sigma = low + (high - low) * np.linspace(0, 1, _SAMPLES)
-        stable = intervals_of(characteristic_table(bicycle, lam, sigma)).number > 0
-        first = np.argmax(stable, axis=1)[:, np.newaxis]
-        low, high = (np.take_along_axis(sigma, at, axis=1) for at in (np.maximum(first - 1, 0), first))
-        low, high = (np.where(stable.any(axis=1, keepdims=True), end, np.nan) for end in (low, high))
-    return high[:, 0].tolist()
-
-
-def _measures(region: _Region, among: _Choice, box: DesignBox) -> Measures:
+def _measures(region: Region, among: Choice, box: DesignBox) -> Measures:
     sigma_min = [
         sigma if sigma is not None and among.design(lam, sigma) else None
-        for lam, sigma in zip(_fold_lams(box).tolist(), region.sigma_min, strict=True)
+        for lam, sigma in zip(fold_lams(box).tolist(), region.sigma_min, strict=True)
     ]
     share = region.width[among.grid].sum() / region.width.size
     return Measures(float(share) * box.area, region.V1[among.grid], sigma_min)
 
 
 def _sweep(
-    deltas: tuple[float, ...], still: _Region, damped: list[_Region], among: _Choice, box: DesignBox
+    deltas: tuple[float, ...], still: Region, damped: list[Region], among: Choice, box: DesignBox
 ) -> Sweep:
     """What is followed of the chosen designs."""
     without, *rest = (_measures(region, among, box) for region in (still, *damped))
@@ -203,7 +144,7 @@ def _sweep(
         "volume of the stable region": [change.volume_change for change in changes],
         "V1, median over designs": [change.V1_change_median for change in changes],
     }
-    for i, lam in enumerate(_fold_lams(box).tolist()):
+    for i, lam in enumerate(fold_lams(box).tolist()):
         measures[f"smallest stable σ at λ = {lam:g}"] = [change.sigma_min_change[i] for change in changes]
     measures = {name: values for name, values in measures.items() if values[0] is not None}
     marked = {

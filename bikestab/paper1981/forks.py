@@ -7,16 +7,17 @@ from typing import Any
 import numpy as np
 
 from bikestab.bicycle import Bicycle
+from bikestab.machines import Machines
 
 FORWARDS = "forks bent forwards"  # b >= 0, as nearly all bicycles and motorcycles have them
 
 
-def offset(bicycle: Bicycle, lam: Any, sigma: Any) -> Any:
+def offset(bicycle: Bicycle | Machines, lam: Any, sigma: Any) -> Any:
     """The fork offset b [m] = R2 sin λ − c1 of designs, c1 = σ c cos λ; positive = bent forwards."""
     return bicycle.R2 * np.sin(lam) - sigma * bicycle.c * np.cos(lam)
 
 
-def bent_forwards(bicycle: Bicycle, lam: Any, sigma: Any) -> Any:
+def bent_forwards(bicycle: Bicycle | Machines, lam: Any, sigma: Any) -> Any:
     """Whether b >= 0, that is, σ <= (R2/c) tan λ."""
     return offset(bicycle, lam, sigma) >= 0
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -14,6 +14,7 @@ from bikestab.family import Family
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.paper1981.box import LAM, PAPER_BOX, DesignBox, Range, V, middles
 from bikestab.paper1981.forks import bent_forwards, least_tilt
+from bikestab.paper1981.several import groups, together
 from bikestab.region.lines import Line, crossings
 from bikestab.speeds import Intervals, intervals_of
 
@@ -84,6 +85,17 @@ def map_designs(
     ]
     number, unbounded, formula, total, widest = (np.concatenate(of) for of in zip(*parts, strict=True))
     return DesignMap(x, y, number, unbounded, formula, total, widest, bent_forwards(bicycle, x, y))
+
+
+def map_each(bicycles: Sequence[Bicycle], n: int, box: DesignBox = PAPER_BOX) -> list[DesignMap]:
+    """The maps of n × n designs of a box of each bicycle."""
+    x, y = middles(box.lam, n)[:, np.newaxis], middles(box.sigma, n)
+    maps: list[DesignMap] = []
+    for group in groups(bicycles, n * n):
+        machines = together(group)
+        found = *_stable_speeds(characteristic_table(machines, x, y)), bent_forwards(machines, x, y)
+        maps += [DesignMap(x, y, *each) for each in zip(*found, strict=True)]
+    return maps
 
 
 def _stable_speeds(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bikestab.bicycle import Bicycle
-from bikestab.paper1981.any_machine import JudgedMachine, judge_machine
+from bikestab.paper1981.any_machine import JudgedMachine, judge_each
 from bikestab.paper1981.box import PAPER_BOX
 from bikestab.paper1981.forks import offset
 from bikestab.paper1981.one_design import Interval, intervals
@@ -50,6 +50,6 @@ def judge_motorcycle(n: int) -> Motorcycle:
             lam, sigma, float(offset(machine, lam, sigma)), machine.delta,
             intervals(machine, lam, sigma), intervals(bare, lam, sigma),
         ),
-        paper_box=judge_machine(bare, n),
-        wider_box=judge_machine(bare, n, PAPER_BOX.wider),
+        paper_box=judge_each([bare], n)[0],
+        wider_box=judge_each([bare], n, PAPER_BOX.wider)[0],
     )  # fmt: skip

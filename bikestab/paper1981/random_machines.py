@@ -10,7 +10,7 @@ import numpy as np
 from bikestab.bicycle import Bicycle
 from bikestab.paper1981.box import Sampling
 from bikestab.paper1981.forks import offset
-from bikestab.paper1981.maps import DesignMap, map_designs
+from bikestab.paper1981.maps import DesignMap, map_each
 from bikestab.paper1981.one_design import eigenvalues, intervals
 
 
@@ -52,7 +52,7 @@ class RandomMachines:
 def study_random_machines(sampling: Sampling) -> RandomMachines:
     """The stable speeds of random machines over the paper's box."""
     machines = list(random_machines(sampling.machines))
-    maps = [map_designs(machine, sampling.grid_machines) for machine in machines]
+    maps = map_each(machines, sampling.grid_machines)
     stable = np.array([(designs.number > 0).mean() for designs in maps])
     unbounded = np.array([designs.unbounded.mean() for designs in maps])
     several = np.array([(designs.number > 1).mean() for designs in maps])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from bikestab.bicycle import Bicycle
 from bikestab.limits import least_with
 from bikestab.paper1981 import claims
-from bikestab.paper1981.any_machine import JudgedMachine, judge_machine
+from bikestab.paper1981.any_machine import JudgedMachine, judge_each
 from bikestab.paper1981.box import Sampling
 from bikestab.paper1981.claims import Verdict
 
@@ -127,21 +127,24 @@ def _with_other_values(bicycle: Bicycle, words: str) -> Iterator[Reading]:
         yield Reading(f"{words}D{part} = {D:+.3g}", bicycle.replaced({f"D{part}": D}), False)
 
 
-def judge_reading(reading: Reading, n: int) -> JudgedReading:
-    """The four verdicts on one reading, from n × n designs."""
-    bicycle = reading.bicycle
-    return JudgedReading(
-        reading=reading.words,
-        printed=reading.printed,
-        possible=not bicycle.warnings,
-        values={name: getattr(bicycle, name) for name in _VALUES},
-        judged=judge_machine(bicycle, n),
-    )
+def judge_all(chosen: Sequence[Reading], n: int) -> list[JudgedReading]:
+    """The four verdicts on each reading, from n × n designs."""
+    judged = judge_each([reading.bicycle for reading in chosen], n)
+    return [
+        JudgedReading(
+            reading=reading.words,
+            printed=reading.printed,
+            possible=not reading.bicycle.warnings,
+            values={name: getattr(reading.bicycle, name) for name in _VALUES},
+            judged=verdicts,
+        )
+        for reading, verdicts in zip(chosen, judged, strict=True)
+    ]
 
 
 def judge_readings(bicycle: Bicycle, sampling: Sampling) -> Readings:
     """The verdicts on every reading of the printed values."""
-    rows = [judge_reading(reading, sampling.grid_readings) for reading in readings(bicycle)]
+    rows = judge_all(readings(bicycle), sampling.grid_readings)
     marked = [row.judged.everywhere.marked_from for row in rows]
     known = [delta for delta in marked if delta is not None]
     return Readings(

@@ -3,11 +3,15 @@
 import pytest
 
 from bikestab.bicycle import Bicycle
-from bikestab.paper1981.readings import exchanged, judge_reading
+from bikestab.paper1981.readings import exchanged
 from bikestab.paper1981.study import plain
-from tests.small import TINY, all_readings, study
+from tests.small import all_readings, record, study
 
 FINITE = "A1 ⇄ B1, A2 ⇄ B2, B2 = 0.36"  # with C = 0.5, the printed value
+
+
+def judged(words):
+    return next(row for row in record().sensitivity.readings if row.reading == words)
 
 
 def test_there_are_60():
@@ -21,7 +25,7 @@ def test_there_are_60():
 
 
 def test_verdicts_of_the_printed_values_are_those_of_the_study():
-    found = judge_reading(all_readings()["as printed"], TINY.grid_readings)
+    found = judged("as printed")
     study_verdicts = {number: part["verdict"] for number, part in study()["conclusions"].items()}
     assert plain(found.judged.everywhere.verdicts) == study_verdicts
     forwards = {number: part["verdict_forwards"] for number, part in study()["conclusions"].items()}
@@ -31,7 +35,7 @@ def test_verdicts_of_the_printed_values_are_those_of_the_study():
 
 def test_the_reading_that_is_bounded_in_the_box():
     """Unbounded intervals from σ ≈ 0.156 on only."""
-    found = judge_reading(all_readings()[FINITE], TINY.grid_readings)
+    found = judged(FINITE)
     whole = found.judged.everywhere
     assert whole.shares.unbounded == 0
     assert whole.shares_wider_box.unbounded > 0
@@ -39,7 +43,7 @@ def test_the_reading_that_is_bounded_in_the_box():
 
 
 def test_a_possible_machine_refutes_conclusion_1_too():
-    found = judge_reading(all_readings()["A1 ⇄ B1, C = 0.05"], TINY.grid_readings)
+    found = judged("A1 ⇄ B1, C = 0.05")
     assert found.possible
     assert found.judged.everywhere.verdicts.finite_interval == "does not hold"
     assert found.judged.forwards.verdicts.finite_interval == "holds"
