@@ -12,7 +12,7 @@ from bikestab.bicycle import PAPER, Bicycle
 from bikestab.errors import InputError, nearest
 from bikestab.limits import check_tilt, check_trail
 from bikestab.machines import Machines
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.model import Floats, Model, characteristic_table, exact_table
 from bikestab.notation import MEIJAARD
 
 _TILT = {"lam": "steering-axis tilt [rad]", "head_angle": "head angle, 90° − tilt [rad]"}
@@ -91,8 +91,13 @@ class Family:
     def table(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Characteristic tables (5, 4, *shape) at values of the two parameters that broadcast together.
 
-        Values are taken as they are: see ``check``.
+        Values are taken as they are: see ``check``. The entries are those of ``exact_table`` as doubles.
         """
+        machine, lam, sigma = self._designs(x, y)
+        return exact_table(machine, lam, sigma, model=self.model).value
+
+    def quick_table(self, x: ArrayLike, y: ArrayLike) -> Floats:
+        """The same in double precision, for searches: right to the rounding of the terms of its entries."""
         machine, lam, sigma = self._designs(x, y)
         return characteristic_table(machine, lam, sigma, model=self.model)
 

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from bikestab.bicycle import Bicycle
 from bikestab.notation import reduced
-from bikestab.twofold import Twofold, sine_cosine
+from bikestab.sines import plain_sine_cosine, sine_cosine
+from bikestab.twofold import Twofold, exact_sum
 
 if TYPE_CHECKING:
     from bikestab.machines import Machines
@@ -21,25 +22,29 @@ MODELS: tuple[Model, ...] = ("refined", "unrefined")
 
 
 def letters_of(
-    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, model: Model
+    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, model: Model, *, twofold: bool = True
 ) -> SimpleNamespace:
     """The paper's letters, and what (1.5) is made of: see section 5 of docs/theory.md.
+
+    In twice double precision, or as doubles.
 
     J1, M12 and M22 are the inertia matrix; Q, N and W are what a3, b1 and b2 have besides the wheels' spin
     and cos λ; T is b5 without c cos λ. S and U are sums that the refinement leaves no difference in.
     """
     if model not in MODELS:
         raise ValueError(f"model is {model!r}, not one of {MODELS}")
-    p = _numbers(bicycle)
-    sin, cos = sine_cosine(lam)
-    trail = Twofold(np.asarray(sigma))
+    trail: Any = np.asarray(sigma)
+    if twofold:
+        p, (sin, cos), trail = _numbers(bicycle), sine_cosine(lam), Twofold(trail)
+    else:
+        p, (sin, cos) = _doubles(bicycle), plain_sine_cosine(lam)
     C1, C2 = p.C1 / p.R1, p.C2 / p.R2  # C1° and C2°: angular momentum per unit of speed
     mu = trail * cos  # c1/c
-    e = p.m2 * (p.l2 - p.c)
+    e = p.m2 * p.ahead
     h = p.m1 * p.h1 + p.m2 * p.h2
     l = p.m1 * p.l1 + p.m2 * p.l2  # noqa: E741  # the paper's letter
 
-    d = p.h2 * sin + (p.l2 - p.c - trail * p.c) * cos
+    d = p.h2 * sin + (p.ahead - trail * p.c) * cos
     J1 = p.m1 * p.h1 * p.h1 + p.A1 + p.m2 * p.h2 * p.h2 + p.A2
     J2 = p.m1 * p.l1 * p.l1 + p.B1 + p.m2 * p.l2 * p.l2 + p.B2
     J12 = p.m1 * p.h1 * p.l1 + p.D1 + p.m2 * p.h2 * p.l2 - p.D2
@@ -66,7 +71,7 @@ def letters_of(
     )  # fmt: skip
 
 
-def determinant(n: SimpleNamespace) -> Twofold:
+def determinant(n: SimpleNamespace) -> Any:
     """c² det M as a sum of terms that are not negative (Cauchy and Binet), for nearly singular inertias.
 
     Both masses move sideways by h_i χ + Y_i ψ; I is what their central inertias have in M.
@@ -84,17 +89,30 @@ def determinant(n: SimpleNamespace) -> Twofold:
 
 
 def _numbers(bicycle: Bicycle | Machines) -> SimpleNamespace:
-    """The paper's parameters; what does not spin gets a radius, for it may be a skate, with none."""
+    """The paper's parameters, and how far the front centre of mass is ahead of the contact, l2 − c."""
     given: Mapping[str, Any] | None = getattr(bicycle, "bodies", None)
     if given is None:
         numbers = {name: Twofold(getattr(bicycle, name)) for name in _PARAMETERS}
+        ahead = exact_sum(bicycle.l2, -bicycle.c)
     else:
         numbers = reduced({name: Twofold(value) for name, value in given.items()})
         numbers = {name: x if isinstance(x, Twofold) else Twofold(x) for name, x in numbers.items()}
+        numbers |= {name: Twofold(getattr(bicycle, name)) for name in getattr(bicycle, "parts", ())}
+        ahead = numbers["l2"] - numbers["c"]
+    return _with_radii(bicycle, numbers, ahead)
+
+
+def _doubles(bicycle: Bicycle | Machines) -> SimpleNamespace:
+    """The same as doubles."""
+    numbers = {name: getattr(bicycle, name) for name in _PARAMETERS}
+    return _with_radii(bicycle, numbers, bicycle.l2 - bicycle.c)
+
+
+def _with_radii(bicycle: Bicycle | Machines, numbers: dict[str, Any], ahead: Any) -> SimpleNamespace:
+    """What does not spin gets a radius, for it may be a skate, with none."""
     for i in "12":
-        still = 1 * (getattr(bicycle, f"C{i}") == 0)
-        numbers[f"R{i}"] = numbers[f"R{i}"] + still
-    return SimpleNamespace(**numbers)
+        numbers[f"R{i}"] = numbers[f"R{i}"] + 1 * (getattr(bicycle, f"C{i}") == 0)
+    return SimpleNamespace(**numbers, ahead=ahead)
 
 
 _PARAMETERS = (

@@ -40,7 +40,8 @@ def standard_normal(uniform: _Floats) -> _Floats:
 class Machines:
     """Many machines, as ``coefficients`` takes them: the paper's parameters, of shape (sample, 1).
 
-    Parameters that all of them share are plain numbers.
+    Parameters that all of them share are plain numbers. Those of four rigid bodies keep their ``bodies``,
+    from which the table is made as it is for one machine, but for ``parts`` that were given instead.
     """
 
     shape: tuple[int, ...]
@@ -63,6 +64,8 @@ class Machines:
     R2: Any
     g: Any
     delta: Any
+    bodies: Mapping[str, Any] | None = None
+    parts: tuple[str, ...] = ()
 
     @property
     def number(self) -> int:
@@ -94,12 +97,17 @@ class Machines:
         They are those of its notation, or of the two parts that it is reduced to.
         """
         numbers: dict[str, Any] = {**bicycle.given, **columns}
+        parts = {name: values for name, values in columns.items() if name not in MEIJAARD}
+        if "R" in parts:
+            parts["R1"] = parts["R2"] = parts.pop("R")
+        bodies = None
         if bicycle.bodies is not None:
-            parts = {name: values for name, values in columns.items() if name not in MEIJAARD}
-            numbers = {"delta": 0.0, **reduced(numbers), **parts}
-        if "R" in columns:
-            numbers["R1"] = numbers["R2"] = columns["R"]
-        return cls(shape=shape, **{p.name: numbers[p.name] for p in _PARAMETERS})
+            bodies = {name: values for name, values in numbers.items() if name in MEIJAARD}
+            numbers = reduced(bodies)
+        numbers = {"delta": 0.0, **numbers, **parts}
+        return cls(
+            shape=shape, bodies=bodies, parts=(*parts,), **{p.name: numbers[p.name] for p in _PARAMETERS}
+        )
 
     def doubtful(self) -> dict[str, int]:
         """How many machines have what no rigid bodies on the ground can have, by what it is."""
@@ -120,9 +128,14 @@ class Machines:
 
     def part(self, samples: slice) -> Machines:
         """Some of the machines."""
-        numbers = {p.name: getattr(self, p.name) for p in _PARAMETERS}
-        numbers = {name: value[samples] if np.ndim(value) else value for name, value in numbers.items()}
-        return Machines(shape=(len(range(*samples.indices(self.number))), 1), **numbers)
+
+        def chosen(numbers: Mapping[str, Any]) -> dict[str, Any]:
+            return {name: value[samples] if np.ndim(value) else value for name, value in numbers.items()}
+
+        numbers = chosen({p.name: getattr(self, p.name) for p in _PARAMETERS})
+        bodies = None if self.bodies is None else chosen(self.bodies)
+        shape = len(range(*samples.indices(self.number))), 1
+        return Machines(shape=shape, bodies=bodies, parts=self.parts, **numbers)
 
 
 _PARAMETERS = [p for p in parameters() if p.name not in ("lam", "sigma")]

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 Floats: TypeAlias = NDArray[np.float64]
 _CELLS = 3 << 12  # worked on at a time
 _POOR = 2.0**-16  # share of its terms below which the determinant of M is formed otherwise
+_POOR_DOUBLE = 2.0**-12  # the same in double precision
 
 
 class Coefficients(NamedTuple):
@@ -80,13 +81,10 @@ def exact_table(
     rigid bodies are reduced to two parts on the way. The damping is the bicycle's ``delta``.
     Source: (2.1) of the paper, in real time and with ε = 1/V²; docs/theory.md, section 6.
     """
-    lam, sigma = np.asarray(lam, dtype=float), np.asarray(sigma, dtype=float)
-    shape = np.broadcast_shapes(lam.shape, sigma.shape, bicycle.shape)
+    shape, parts = _shape_and_parts(bicycle, lam, sigma)
     table = np.zeros((3, 5, 4, *shape))
-    rows = [...] if bicycle.shape or not shape else _some_rows(shape)
-    for some in rows:
-        at = [x[some] if some is not ... and x.ndim == len(shape) and len(x) > 1 else x for x in (lam, sigma)]
-        letters = letters_of(bicycle, at[0], at[1], model)
+    for some, tilt, trail in parts:
+        letters = letters_of(bicycle, tilt, trail, model)
         entries = _entries(letters)
         poor = np.abs(entries[4, 0].value) < _POOR * entries[4, 0].size
         if np.any(poor):
@@ -97,20 +95,46 @@ def exact_table(
     return ExactTable(*table)
 
 
-def _some_rows(shape: tuple[int, ...]) -> list[slice]:
-    """Parts of the first axis with so few cells that temporaries fit the cache."""
-    step = max(1, _CELLS * shape[0] // max(prod(shape), 1))
-    return [slice(start, start + step) for start in range(0, shape[0], step)]
-
-
 def characteristic_table(
     bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"
 ) -> Floats:
     """The table P[k, j] of s^k V^j for arrays of λ [rad] and σ [1] that broadcast together.
 
-    Returns an array of shape (5, 4, *shape): the doubles nearest to the entries of ``exact_table``.
+    Returns an array of shape (5, 4, *shape). The same expressions as in ``exact_table`` in double precision:
+    each entry is right to some units of rounding of its terms, and zero where these cancel identically.
     """
-    return exact_table(bicycle, lam, sigma, model=model).value
+    shape, parts = _shape_and_parts(bicycle, lam, sigma)
+    table = np.zeros((5, 4, *shape))
+    for some, tilt, trail in parts:
+        letters = letters_of(bicycle, tilt, trail, model, twofold=False)
+        entries = _entries(letters)
+        product = letters.c * letters.c * letters.J1 * letters.M22
+        poor = entries[4, 0] < _POOR_DOUBLE * product
+        if np.any(poor):
+            entries[4, 0] = np.where(poor, determinant(letters), entries[4, 0])
+        for (k, j), entry in entries.items():
+            table[k, j, some] = entry
+    return table
+
+
+_Part = tuple[Any, Floats, Floats]
+
+
+def _shape_and_parts(
+    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike
+) -> tuple[tuple[int, ...], list[_Part]]:
+    """The table's trailing shape; parts of its first axis whose temporaries fit the cache, with λ and σ."""
+    lam, sigma = np.asarray(lam, dtype=float), np.asarray(sigma, dtype=float)
+    shape = np.broadcast_shapes(lam.shape, sigma.shape, bicycle.shape)
+    if bicycle.shape or not shape:
+        return shape, [(..., lam, sigma)]
+    step = max(1, _CELLS * shape[0] // max(prod(shape), 1))
+    slices = [slice(start, start + step) for start in range(0, shape[0], step)]
+
+    def part(x: Floats, some: slice) -> Floats:
+        return x[some] if x.ndim == len(shape) and len(x) > 1 else x
+
+    return shape, [(some, part(lam, some), part(sigma, some)) for some in slices]
 
 
 def coefficients(
@@ -141,7 +165,7 @@ def coefficients(
     )  # (1.5)
 
 
-def _entries(n: SimpleNamespace) -> dict[tuple[int, int], Twofold]:
+def _entries(n: SimpleNamespace) -> dict[tuple[int, int], Any]:
     """The entries (k, j) of the table, without terms that cancel identically.
 
     The wheels' spins do so in p3 and in the V term of p1; p0 is a product but for the refinement.

@@ -8,16 +8,11 @@ sizes and a product to 8 u² of itself, as long as nothing leaves the range 1e-2
 
 from __future__ import annotations
 
-from functools import cache
-from math import factorial
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-_Floats = NDArray[np.float64]
 _SPLITTER = 134217729.0  # 2^27 + 1 cuts a double into two halves of 26 bits
-_BITS = 240  # of the fixed point in which sines and cosines are tabulated
 
 
 def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
@@ -172,55 +167,3 @@ class Double:
 def exact_sum(a: Any, b: Any) -> Twofold:
     """The sum of two doubles: without error, so that its size is its own."""
     return Twofold(*two_sum(a, b))
-
-
-def sine_cosine(angle: ArrayLike) -> tuple[Twofold, Twofold]:
-    """Sin and cos of angles [rad], |angle| ≤ 1.6, right to 64 u² of their sizes.
-
-    The angle is a multiple of 1/16, whose sine and cosine stand in a table, and a rest of at most 1/32, whose
-    series are short.
-    """
-    angle = np.asarray(angle, dtype=float)
-    number = np.rint(16 * angle)
-    small = angle - number / 16  # exact
-    y = Twofold(*two_product(small, small))
-    constants, tails, nodes = _constants()
-    series = []
-    for coefficients, tail in zip(constants, tails, strict=True):
-        far: Any = tail[-1]
-        for a in tail[-2::-1]:  # below 2^−50 of the sum
-            far = far * y.value + a
-        near = Twofold(far)
-        for b in coefficients[::-1]:
-            near = near * y + b
-        series.append(near)
-    sine, cosine = series[0] * y * small + small, series[1] * y + 1.0
-    at = np.abs(number).astype(int)
-    sign = np.where(number < 0, -1.0, 1.0)
-    S, C = (Twofold(row[0][at], row[1][at]) for row in nodes)
-    S = S * sign
-    return S * cosine + C * sine, C * cosine - S * sine
-
-
-@cache
-def _constants() -> tuple[list[list[Twofold]], list[list[float]], _Floats]:
-    """Coefficients of (sin x / x − 1)/x² and (cos x − 1)/x² in powers of x²; sin and cos of k/16, k ≤ 26."""
-    constants, tails = [], []
-    for first in (3, 2):
-        series = [_quotient((-1) ** (n + 1), factorial(first + 2 * n)) for n in range(7)]
-        constants.append(series[:3])
-        tails.append([a.value for a in series[3:]])
-    nodes = np.empty((2, 2, 27))
-    for k in range(27):
-        terms = [(k**n << _BITS) // (16**n * factorial(n)) for n in range(40)]  # 1.7^40/40! < 2^−128
-        for row, first in ((0, 1), (1, 0)):
-            number = sum((-1) ** (n // 2) * terms[n] for n in range(first, 40, 2))
-            nodes[row, :, k] = (a := _quotient(number, 1 << _BITS)).value, a.rest
-    return constants, tails, nodes
-
-
-def _quotient(a: int, b: int) -> Twofold:
-    """a/b of whole numbers: Python's division rounds to the nearest double."""
-    value = a / b
-    m, n = value.as_integer_ratio()
-    return Twofold(value, (a * n - m * b) / (b * n))

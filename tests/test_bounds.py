@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from bikestab.bicycle import Bicycle
-from bikestab.model import exact_table
+from bikestab.machines import Machines
+from bikestab.model import characteristic_table, exact_table
 from bikestab.speeds import KINDS, REASONS, intervals_of
 from tests.references import verify_speeds
 from tests.strategies import lams, paper_machines, sigmas
@@ -106,6 +107,29 @@ def test_a_table_has_the_same_bits_in_any_company(machine, lam, sigma):
     for i, k in np.ndindex(5, 3):
         for many, one in zip(whole, exact_table(bicycle, lam[i], sigma[k]), strict=True):
             assert many[:, :, i, k].tobytes() == one.tobytes()
+
+
+@pytest.mark.parametrize(
+    "table_of", [lambda *given: exact_table(*given), lambda *given: (characteristic_table(*given),)]
+)
+@pytest.mark.parametrize("preset", ["meijaard2007", "dikarev1981"])
+def test_a_machine_of_a_sweep_has_the_bits_of_itself(preset, table_of):
+    """Many machines at once, of either notation, in parts too, and each of them alone."""
+    bicycle, number = Bicycle.preset(preset), 23
+    rng = np.random.default_rng(3)
+    names = rng.permutation([name for name in bicycle.given if name not in ("lam", "sigma", "delta")])[:6]
+    names = [name for name in names if bicycle.given[name]]
+    samples = {name: bicycle.given[name] * rng.uniform(0.95, 1.05, number) for name in names}
+    samples["delta"] = rng.uniform(0, 2, number)
+    machines = Machines.drawn(bicycle, samples)
+    together = table_of(machines, 0.3, np.array([0.05, 0.08]))
+    some = table_of(machines.part(slice(5, 9)), 0.3, np.array([0.05, 0.08]))
+    for i in range(number):
+        alone = table_of(bicycle.replaced({name: float(x[i]) for name, x in samples.items()}), 0.3, 0.08)
+        for many, few, one in zip(together, some, alone, strict=True):
+            assert many[:, :, i, 1].tobytes() == one.tobytes()
+            if 5 <= i < 9:
+                assert few[:, :, i - 5, 1].tobytes() == one.tobytes()
 
 
 @pytest.mark.parametrize("delta", [1e-12, 1e-9, 1e-6])

@@ -29,7 +29,13 @@ s, V, c, delta = sp.Symbol("s"), derived.V, derived.c, derived.delta
 
 @pytest.fixture
 def symbols_for_numbers(monkeypatch):
-    monkeypatch.setattr(letters_module, "Twofold", lambda value: sp.nsimplify(np.asarray(value).item()))
+    def number(value):
+        return sp.nsimplify(np.asarray(value).item())
+
+    monkeypatch.setattr(letters_module, "Twofold", number)
+    monkeypatch.setattr(
+        letters_module, "exact_sum", lambda a, b: letters_module.Twofold(a) + letters_module.Twofold(b)
+    )
     monkeypatch.setattr(letters_module, "sine_cosine", lambda lam: (sp.sin(lam), sp.cos(lam)))
 
 

@@ -6,7 +6,7 @@ import pytest
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
 from bikestab.family import Family
-from bikestab.model import characteristic_table
+from bikestab.model import characteristic_table, exact_table
 from bikestab.region.curves import trace
 from bikestab.region.lines import stable_ranges
 from bikestab.speeds import intervals_of
@@ -51,8 +51,10 @@ def test_tables_are_those_of_single_machines(family, x, y):
     assert tables.shape == (5, 4, 20)
     for i in range(20):
         machine = one(family, X[i], Y[i])
-        expected = characteristic_table(machine, machine.lam, machine.sigma, model=family.model)
+        expected = exact_table(machine, machine.lam, machine.sigma, model=family.model).value
         np.testing.assert_allclose(tables[..., i], expected, rtol=1e-12, atol=1e-13 * np.abs(expected).max())
+        quick = family.quick_table(X[i], Y[i])
+        np.testing.assert_allclose(quick, expected, rtol=1e-12, atol=1e-13 * np.abs(expected).max())
         lam, sigma, c = family.geometry(X[i], Y[i])
         assert (lam, sigma, c) == pytest.approx((machine.lam, machine.sigma, machine.c), rel=1e-14)
     np.testing.assert_array_equal(family.table(X[:, None], Y[:3]).shape, (5, 4, 20, 3))
@@ -62,8 +64,11 @@ def test_tables_are_those_of_single_machines(family, x, y):
 def test_tilt_and_trail_are_those_of_the_model_itself():
     lam, sigma = np.linspace(0, 0.5, 7)[:, None], np.linspace(0, 0.3, 5)
     for bicycle, model in ((DIKAREV, "refined"), (MEIJAARD, "unrefined")):
+        family = Family(bicycle, model)
+        expected = exact_table(bicycle, lam, sigma, model=model).value
+        np.testing.assert_array_equal(family.table(lam, sigma), expected)
         expected = characteristic_table(bicycle, lam, sigma, model=model)
-        np.testing.assert_array_equal(Family(bicycle, model).table(lam, sigma), expected)
+        np.testing.assert_array_equal(family.quick_table(lam, sigma), expected)
 
 
 @each_family

@@ -55,7 +55,7 @@ class Wanted:
 
     def table(self, x: Floats) -> Floats:
         """Characteristic tables of designs x (2, *shape)."""
-        return self.family.table(x[0], x[1])
+        return self.family.quick_table(x[0], x[1])
 
 
 class Counted(NamedTuple):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.errors import ScanError
-from bikestab.model import Floats, characteristic_table
+from bikestab.model import Floats, exact_table
 from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, condition, conditions
 from bikestab.scan.agreement import AGREEMENT, Agreement, by_rounding, size_of_terms
@@ -62,7 +62,7 @@ class Bracketing:
         step = max(1, _PART // len(self._V))
         for start in range(0, len(i), step):
             at = i[start : start + step], j[start : start + step]
-            table = characteristic_table(tile.bicycle, tile.lam[at[0]], tile.sigma[at[1]], model=tile.model)
+            table = exact_table(tile.bicycle, tile.lam[at[0]], tile.sigma[at[1]], model=tile.model).value
             for first in range(0, len(self._V) - 1, _PART):
                 self._look(
                     table, self._V[first : first + _PART + 1], {name: r.V[at] for name, r in roots.items()}
