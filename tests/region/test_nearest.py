@@ -5,7 +5,7 @@ import pytest
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
-from bikestab.model import characteristic_table
+from bikestab.model import exact_table
 from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, nearest_stable, rounded
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
@@ -14,7 +14,7 @@ DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007"
 
 
 def stable(bicycle, lam, sigma, model="refined"):
-    return intervals_of(characteristic_table(bicycle, lam, sigma, model=model)).number > 0
+    return intervals_of(exact_table(bicycle, lam, sigma, model=model)).number > 0
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +109,7 @@ def test_beyond_the_searched_trails():
 def test_negative_trails():
     """The benchmark bicycle at σ = −0.005 is stable from 2.787 to 2.860 m/s; at −0.01 it is not."""
     near = nearest_stable(Family(MEIJAARD), MEIJAARD.lam, -0.01)
-    V1, V2 = intervals_of(characteristic_table(MEIJAARD, MEIJAARD.lam, -0.005))[:2]
+    V1, V2, _, _ = intervals_of(exact_table(MEIJAARD, MEIJAARD.lam, -0.005))
     np.testing.assert_allclose([V1[0], V2[0]], [2.786837876101, 2.860242007369], rtol=1e-12)
     assert -0.01 < near["sigma_min"] < -0.005
     assert not stable(MEIJAARD, MEIJAARD.lam, np.linspace(-0.01, near["sigma_min"] - 1e-12, 5001)).any()
@@ -140,7 +140,7 @@ def test_rounded_ends_are_stable():
 )
 def test_the_speed_of_the_smallest_growth_rate(bicycle, lam):
     near = nearest_stable(Family(bicycle), lam, 0.02)
-    table = characteristic_table(bicycle, lam, 0.02)
+    table = exact_table(bicycle, lam, 0.02).value
     dense = growth_rate_of(table, np.linspace(0, V_MAX, 100_001))
     assert near["growth_rate"] == pytest.approx(float(growth_rate_of(table, near["V"])), rel=1e-12)
     assert near["growth_rate"] <= dense.min() + 1e-12
