@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import islice
+from typing import Any
 
 import numpy as np
 
@@ -11,13 +12,15 @@ from bikestab.bicycle import Bicycle
 from bikestab.machines import Machines
 
 _DESIGNS = 1 << 15  # at a time: a table of 10⁶ designs would take 160 MB
-_NAMES = [name for name in Machines.__dataclass_fields__ if name != "shape"]
+_NAMES = [name for name in Machines.__dataclass_fields__ if name not in ("shape", "bodies", "parts")]
 
 
 def together(bicycles: Sequence[Bicycle]) -> Machines:
     """Bicycles as machines of shape (bicycle, 1, 1), to be broadcast against designs (n, m)."""
     shape = (len(bicycles), 1, 1)
-    columns = {name: np.array([getattr(b, name) for b in bicycles]).reshape(shape) for name in _NAMES}
+    columns: dict[str, Any] = {
+        name: np.array([getattr(b, name) for b in bicycles]).reshape(shape) for name in _NAMES
+    }
     return Machines(shape=shape, **columns)
 
 
