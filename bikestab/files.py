@@ -19,9 +19,9 @@ from bikestab.errors import BikestabError, InputError, ScanError
 
 PATIENCE = 30.0  # s that nobody may read a pipe
 NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}  # make room, and the same command can succeed
-_NOT_THERE = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EISDIR}
-_NOT_THERE |= {errno.ELOOP, errno.ENAMETOOLONG, errno.EINVAL, errno.EEXIST, errno.ENOTEMPTY, errno.ENXIO}
-_NOT_THERE |= {errno.ENODEV, errno.ETXTBSY}
+NOT_THERE = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EISDIR}
+NOT_THERE |= {errno.ELOOP, errno.ENAMETOOLONG, errno.EINVAL, errno.EEXIST, errno.ENOTEMPTY, errno.ENXIO}
+NOT_THERE |= {errno.ENODEV, errno.ETXTBSY}
 _OPEN = re.compile(r"/dev/(?:(?P<name>stdin|stdout|stderr)|fd/(?P<number>\d{1,6}))")
 _NAMES = {"stdin": 0, "stdout": 1, "stderr": 2}
 
@@ -101,7 +101,7 @@ def unwritable(path: str | Path, error: OSError | ValueError) -> BikestabError:
         return InputError("cannot be written (no file has such a name)", place=str(path))
     if error.errno in NO_SPACE:
         return ScanError(f"{path}: the disk is full")
-    if error.errno in _NOT_THERE:
+    if error.errno in NOT_THERE:
         return InputError(f"cannot be written ({error.strerror})", place=str(path))
     return ScanError(f"{path}: cannot be written ({error.strerror or error})")
 

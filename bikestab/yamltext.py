@@ -152,7 +152,7 @@ def plain(text: str) -> dict[str, int | float | str] | None:
     """The mapping in YAML that is plainly one, such as the presets; None where it takes ``parse`` to know.
 
     Plain are comments, ``key: 1.5``, ``key: 18deg``, ``key: 55mm``, ``key: word1`` and ``key: >-`` with lines
-    below it. The result is that of ``parse``, without the time to import and run ruamel, a fifth of vrange's.
+    below it. The result is that of ``parse``, without the time to import a reader, a fifth of vrange's.
     """
     values: dict[str, int | float | str] = {}
     end = 0

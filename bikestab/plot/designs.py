@@ -17,7 +17,9 @@ from bikestab.design.best import Best
 from bikestab.design.criteria import Wanted, counted
 from bikestab.model import Floats
 from bikestab.plot.axes import HALO, label_axes, remarks
+from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import draw_on_white, entry, legend_below
+from bikestab.plot.settings import own_settings
 
 # the upper part of cividis: blue is narrow, yellow is wide, and black lines can be read on all of it
 WIDTH = ListedColormap(colormaps["cividis"](np.linspace(0.3, 1, 256)), name="width")
@@ -53,6 +55,7 @@ class Curve(Protocol):
     def y(self) -> Floats: ...
 
 
+@own_settings()
 def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Figure:
     """The box of ``wanted``, which needs a length in λ and σ, with the designs found and skeleton curves."""
     figure = Figure(figsize=(8.2, 6.4), layout="constrained")
@@ -67,11 +70,8 @@ def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Fi
     bicycle = wanted.family.bicycle
     label_axes(ax, "lam", "sigma", bicycle.c)
     legend_below(figure, handles, handlelength=2.8, fontsize=9)
-    ax.set_title(
-        f"{bicycle.name}{remarks(bicycle, wanted.family.model)}: "
-        f"widest interval of stable speeds up to {wanted.V_max:g} m/s",
-        fontsize=10,
-    )
+    what = f"widest interval of stable speeds up to {wanted.V_max:g} m/s"
+    set_title(ax, f"{short(bicycle.name)}{remarks(bicycle, wanted.family.model)}: {what}")
     return figure
 
 

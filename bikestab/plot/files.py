@@ -10,8 +10,10 @@ from matplotlib.figure import Figure
 
 from bikestab.errors import InputError, nearest
 from bikestab.files import written
+from bikestab.plot.settings import own_settings
 
 
+@own_settings()
 def save(figure: Figure, path: Path) -> None:
     """Write the picture, whole or not at all, in the format of the file's ending.
 

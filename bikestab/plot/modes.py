@@ -17,6 +17,8 @@ from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.modenames import OSCILLATING
 from bikestab.modes import Modes, follow
 from bikestab.plot.axes import HALO, head_angle, remarks
+from bikestab.plot.headings import set_title, short
+from bikestab.plot.settings import own_settings
 from bikestab.speeds import KINDS, intervals_of
 
 # dark blue, red and yellow (Tol 2021, high contrast) differ for colour-blind eyes and in greyscale
@@ -45,6 +47,7 @@ class _Line(NamedTuple):
     imaginary: bool
 
 
+@own_settings()
 def draw_modes(
     bicycle: Bicycle, lam: float, sigma: float, start: float, stop: float, *, model: Model = "refined"
 ) -> Figure:
@@ -85,10 +88,10 @@ def draw_modes(
     ax.set_xlabel("speed V [m/s]")
     ax.tick_params(direction="in", top=True, right=True)
     title = (
-        f"{bicycle.name}: λ = {lam:.6g} rad (head angle {head_angle(lam):.2f}°), "
+        f"{short(bicycle.name)}: λ = {lam:.6g} rad (head angle {head_angle(lam):.2f}°), "
         f"σ = {sigma:.6g} (trail {sigma * bicycle.c:.4g} m){remarks(bicycle, model)}"
     )
-    ax.set_title(title, fontsize=min(10, 10 * 85 / len(title)), pad=8 + 13 * rows)
+    set_title(ax, title, pad=8 + 13 * rows)
     return figure
 
 

@@ -18,7 +18,9 @@ from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, remarks
+from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import legend_below
+from bikestab.plot.settings import own_settings
 from bikestab.region.mesh import Mesh, region_mesh
 from bikestab.region.triangulation import sides_of
 from bikestab.speeds import CAPSIZE, KINDS, WEAVE
@@ -31,6 +33,7 @@ _LIGHT = np.array([-0.45, -0.6, 0.66])  # direction to the light, in units of th
 _SCALE = (1.0, 1.0, 0.85)  # of the drawn box
 
 
+@own_settings()
 def draw_region(volume: Volume) -> Figure:
     """The boundary surface within the volume's axes, weave and capsize sheets in two colours."""
     box = [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in AXES)]
@@ -41,8 +44,8 @@ def draw_region(volume: Volume) -> Figure:
     if handles := draw_mesh(ax, mesh, box):
         legend_below(figure, handles, ncols=2, handlelength=2)
     bicycle = volume.bicycle
-    heading = f"{volume.title}\n{bicycle.name}: stable region{remarks(bicycle, volume.model)}"
-    ax.set_title(heading, fontsize=10)
+    what = f"{short(bicycle.name)}: stable region{remarks(bicycle, volume.model)}"
+    set_title(ax, volume.title, what)
     return figure
 
 

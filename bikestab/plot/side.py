@@ -11,6 +11,8 @@ from matplotlib.patches import Circle
 
 from bikestab.bicycle import Bicycle
 from bikestab.plot.axes import HALO, head_angle
+from bikestab.plot.headings import set_title, short
+from bikestab.plot.settings import own_settings
 
 _REAR, _FRONT, _AXIS = "#0072b2", "#d55e00", "0.35"  # Okabe and Ito 2008
 _ABOVE = 1.25  # the steering axis is drawn up to this share of the highest centre of mass or wheel
@@ -18,6 +20,7 @@ _ABOVE = 1.25  # the steering axis is drawn up to this share of the highest cent
 Point = tuple[float, float]
 
 
+@own_settings()
 def draw_side(bicycle: Bicycle, lam: float, sigma: float) -> Figure:
     """The machine upright, going to the right, at tilt λ [rad] and trail σ [1]; all lengths in m."""
     figure = Figure(figsize=(8.4, 6.4), layout="constrained")
@@ -52,9 +55,8 @@ def draw_side(bicycle: Bicycle, lam: float, sigma: float) -> Figure:
     ax.set_ylim(-4 * step, None)
     ax.set_xlabel("ahead of the rear contact [m]")
     ax.set_ylabel("above the ground [m]")
-    ax.set_title(
-        f"{p.name}: λ = {lam:.4g} rad (head angle {head_angle(lam):.2f}°), σ = {sigma:.4g}", fontsize=10
-    )
+    what = f"λ = {lam:.4g} rad (head angle {head_angle(lam):.2f}°), σ = {sigma:.4g}"
+    set_title(ax, f"{short(p.name)}: {what}")
     return figure
 
 

@@ -16,7 +16,9 @@ from bikestab.fields import AXES, Axis
 from bikestab.model import Floats
 from bikestab.plot.axes import SYMBOLS, head_angle, label_axes, remarks
 from bikestab.plot.colours import GROWTH, colour_growth_rate, colour_probability
+from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import EDGES, draw_on_white, entry, legend_below
+from bikestab.plot.settings import own_settings
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import conditions, violated
 from bikestab.spectrum import growth_rate_of
@@ -25,6 +27,7 @@ from bikestab.volume import Volume
 _SAMPLES = 401  # per axis, for finding the curves; their points are then moved onto the exact zero
 
 
+@own_settings()
 def draw_slice(
     volume: Volume, fixed: Axis, value: float, field: Literal["growth_rate", "probability"] = "growth_rate"
 ) -> Figure:
@@ -127,7 +130,5 @@ def _decorate(ax: Axes, volume: Volume, section: Section) -> None:
         "sigma": f"σ = {section.value:.6g} (trail {section.value * c:.4g} m)",
         "V": f"V = {section.value:.6g} m/s",
     }[section.fixed]
-    ax.set_title(
-        f"{volume.title}\n{bicycle.name}: {where}{remarks(bicycle, section.family.model)}",
-        fontsize=10,
-    )
+    what = f"{short(bicycle.name)}: {where}{remarks(bicycle, section.family.model)}"
+    set_title(ax, volume.title, what)

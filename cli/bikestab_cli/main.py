@@ -7,16 +7,21 @@ import gc
 import importlib
 import os
 import sys
+from contextlib import suppress
 
 import click
+from bikestab_cli.streams import LONGEST, cut, visible_streams
 
 from bikestab import __version__
-from bikestab.errors import BikestabError, InputError, nearest
+from bikestab.errors import BikestabError, InputError, ScanError, nearest
+from bikestab.files import NOT_THERE
 
 COMMANDS = (
     "scan", "vrange", "eigen", "design", "slice", "export", "reproduce", "check", "info", "bicycles", "init",
     "schema",
 )  # fmt: skip
+LEAST_MEMORY = 512 << 20
+_NO_MEMORY = "failed to map segment"  # the loader's words for it
 DEVELOPER = "please report it, with what 'python -X dev -m bikestab ...' shows"
 
 
@@ -61,23 +66,24 @@ def main(program: str = "bikestab") -> None:
 
     ``program`` is what was typed to run it.
     """
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices are 4 × 4, and each thread takes 30 MB
     atexit.register(gc.freeze)  # the exit is 10 ms sooner if it looks for no garbage
-    if sys.stdout is None:  # closed by the caller
-        sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  # a device, open to the end
     code = 0
-    try:
-        code = _run(program, sys.argv[1:])
-        sys.stdout.flush()
-    except BrokenPipeError:  # the reader of a pipe, such as head, has had enough
-        _drop_output()
-    except OSError as error:
-        _drop_output()
-        code = _tell(3, f"could not finish: {error.strerror or error}")
+    with visible_streams():
+        try:
+            code = _run(program, sys.argv[1:])
+            sys.stdout.flush()
+        except BrokenPipeError:  # the reader of a pipe, such as head, has had enough
+            _drop_output()
+        except OSError as error:
+            _drop_output()
+            code = _tell(3, f"could not finish: {error.strerror or error}")
     sys.exit(code)
 
 
 def _run(program: str, args: list[str]) -> int:
     try:
+        _check_memory()
         with cli.make_context(program, args) as context:
             cli.invoke(context)
     except click.exceptions.Exit as end:
@@ -98,20 +104,37 @@ def _run(program: str, args: list[str]) -> int:
         return _tell(2, str(error))
     except BikestabError as error:
         return _tell(3, str(error))
-    except MemoryError:
-        return _tell(3, "not enough memory", "take fewer values, or fewer fields")
-    except OSError:  # which main tells of
-        raise
+    except OSError as error:
+        if isinstance(error, BrokenPipeError) or error.filename is None:  # which main tells of
+            raise
+        return _tell(2 if error.errno in NOT_THERE else 3, f"{error.filename}: {error.strerror or error}")
     except Exception as error:
+        if isinstance(error, MemoryError) or (isinstance(error, ImportError) and _NO_MEMORY in str(error)):
+            return _tell(3, "not enough memory", "take fewer values, or fewer fields")
         if sys.flags.dev_mode:
             raise
-        problem = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+        problem = cut(" ".join(f"{type(error).__name__}: {error}".split()), 150)
         return _tell(3, f"a mistake of bikestab itself ({problem})", DEVELOPER)
     return 0
 
 
+def _check_memory() -> None:
+    """Raise ScanError under a limit at which OpenBLAS, which numpy loads, would end the process by itself."""
+    with suppress(ImportError):  # where there are no such limits
+        import resource
+
+        limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+        if 0 <= limit < LEAST_MEMORY:
+            needed = f"{LEAST_MEMORY >> 20} MB of address space"
+            raise ScanError(f"not enough memory: needs {needed}, and the limit is {limit >> 20} MB")
+
+
 def _tell(code: int, message: str, hint: str = "") -> int:
-    click.echo("error: " + "\n  ".join([*message.split("\n"), *([hint] if hint else [])]), err=True)
+    lines = [*message.split("\n"), *([hint] if hint else [])]
+    click.echo(
+        "\n".join([cut(f"error: {lines[0]}"), *(f"  {cut(line, LONGEST - 2)}" for line in lines[1:3])]),
+        err=True,
+    )
     return code
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -20,7 +21,8 @@ def print_json(value: object) -> None:
     """JSON on stdout; anything not finite has been turned into null or text before."""
     import json
 
-    click.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+    escaped = not getattr(sys.stdout, "shows", "utf-8").startswith("utf")
+    click.echo(json.dumps(value, indent=2, ensure_ascii=escaped, allow_nan=False))
 
 
 def tell_file(name: object, words: str = "") -> None:

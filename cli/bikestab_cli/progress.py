@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
-import click
+from bikestab_cli.streams import visible
 
 TERMINAL, LOG = 0.1, 30.0  # s between two reports
 
@@ -16,6 +16,7 @@ TERMINAL, LOG = 0.1, 30.0  # s between two reports
 @contextmanager
 def progress(name: str, quiet: bool) -> Iterator[Callable[[int, int], None]]:
     """A function that takes the points done so far and all, and tells of them on stderr."""
+    name = visible(name)
     terminal = sys.stderr is not None and sys.stderr.isatty()
     begin = last = time.monotonic()
     first, shown = -1, False
@@ -46,8 +47,11 @@ def progress(name: str, quiet: bool) -> Iterator[Callable[[int, int], None]]:
 
 
 def _tell(text: str) -> None:
+    if sys.stderr is None:
+        return
     with suppress(OSError):  # nobody may be listening any more, which is no reason to stop
-        click.echo(text, nl=False, err=True)
+        getattr(sys.stderr, "as_it_is", sys.stderr.write)(text)
+        sys.stderr.flush()
 
 
 def _width() -> int:

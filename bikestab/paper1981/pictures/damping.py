@@ -13,6 +13,7 @@ from bikestab.paper1981.claims import THRESHOLDS
 from bikestab.paper1981.damped_designs import DampedDesign
 from bikestab.paper1981.damping import Damping
 from bikestab.plot.axes import HALO, LABELS
+from bikestab.plot.settings import own_settings
 
 _STYLES: tuple[Any, ...] = (
     "-",
@@ -25,6 +26,7 @@ _STYLES: tuple[Any, ...] = (
 _COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9")  # Okabe, Ito
 
 
+@own_settings()
 def draw_damping(bicycle: Bicycle, numbers: Damping) -> Figure:
     """V1 and V2 of single designs, and the region's measures, against δ."""
     figure = Figure(figsize=(11, 4.9), layout="constrained")

@@ -18,6 +18,7 @@ from bikestab.paper1981.study import ARROW, FAMILY_LAM, FAMILY_SIGMA
 from bikestab.plot.axes import HALO, SYMBOLS, label_axes
 from bikestab.plot.lines import EDGES, entry, legend_below
 from bikestab.plot.region import draw_mesh
+from bikestab.plot.settings import own_settings
 from bikestab.region.mesh import Mesh
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import CONDITIONS
@@ -28,6 +29,7 @@ _LEAST_APART = 0.037  # of the speeds' axis: a line of text
 _FAMILIES: dict[Axis, tuple[float, ...]] = {"lam": FAMILY_LAM, "sigma": FAMILY_SIGMA}
 
 
+@own_settings()
 def draw_sections(bicycle: Bicycle, samples: int) -> Figure:
     """The paper's figure 3 as two families of curves: (σ, V) at several λ, and (λ, V) at several σ."""
     figure = Figure(figsize=(11.5, 5.6), layout="constrained")
@@ -86,6 +88,7 @@ def _label_ends(ax: Axes, ends: list[tuple[float, float, str, str]], right: floa
         )  # fmt: skip
 
 
+@own_settings()
 def draw_space(bicycle: Bicycle, mesh: Mesh) -> Figure:
     """The region in three dimensions, the arrow into it."""
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")

@@ -18,6 +18,7 @@ from bikestab.paper1981.maps import map_designs
 from bikestab.plot.axes import HALO, label_axes
 from bikestab.plot.designs import CURVES
 from bikestab.plot.lines import draw_on_white, entry, legend_below
+from bikestab.plot.settings import own_settings
 from bikestab.region.curves import trace
 
 _KINDS = {"no stable speed": "#ffffff", "bounded interval": "#bcd7ea", "no upper limit": "#e69f00"}
@@ -27,6 +28,7 @@ _INSET_AT = (0.77, 0.71, 0.21, 0.25)  # in the picture
 _LEAST = 0.01  # of a side: a shorter curve is not seen
 
 
+@own_settings()
 def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], samples: int) -> Figure:
     """Kinds of designs over (λ, σ), with the exact curves between them and counterexamples (λ, σ).
 

@@ -18,6 +18,7 @@ from bikestab.paper1981.pictures.ticks import ENDS, draw_ticked
 from bikestab.plot.axes import label_axes
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.region import draw_mesh
+from bikestab.plot.settings import own_settings
 from bikestab.region.mesh import Mesh
 from bikestab.region.section import Section, zero_curves
 from bikestab.routh import conditions
@@ -32,6 +33,7 @@ _STABLE = "#cfe8f7"
 _TOP = V[1] / 2  # m/s
 
 
+@own_settings()
 def draw_refinement(bicycle: Bicycle, lam: float, meshes: dict[Model, Mesh], samples: int) -> Figure:
     """Both models side by side: the conditions at one λ over (σ, V), and the regions."""
     figure = Figure(figsize=(11, 9.6), layout="constrained")

@@ -14,10 +14,12 @@ from bikestab.model import Floats
 from bikestab.paper1981.box import LAM, SIGMA, V
 from bikestab.paper1981.widening import LAMS, SIGMAS, widest
 from bikestab.plot.axes import label_axes
+from bikestab.plot.settings import own_settings
 
 _TICKS = [0.1, 0.2, 0.5, 1, 2, 5, 10]  # m/s
 
 
+@own_settings()
 def draw_widths(bicycle: Bicycle, samples: int) -> Figure:
     """The width of the widest interval along λ at several σ, and along σ at several λ."""
     figure = Figure(figsize=(11, 4.8), layout="constrained")

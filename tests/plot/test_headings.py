@@ -1,0 +1,45 @@
+"""Titles of any length and script."""
+
+import warnings
+
+import pytest
+from matplotlib.figure import Figure
+
+from bikestab.plot.files import save
+from bikestab.plot.headings import set_title, short
+
+
+def drawn(tmp_path, *lines):
+    figure = Figure(figsize=(7.4, 5.2), layout="constrained")
+    ax = figure.add_subplot()
+    set_title(ax, *lines)
+    with warnings.catch_warnings(action="error"):
+        save(figure, tmp_path / "a.png")
+        save(figure, tmp_path / "a.pdf")
+    return ax.get_title()
+
+
+def test_short_titles_stay():
+    assert short("meijaard2007") == "meijaard2007"
+    assert 39 <= len(short("long " * 1000)) <= 40
+
+
+def test_rows(tmp_path):
+    title = drawn(tmp_path, "word " * 1000, "second")
+    assert [len(row) <= 85 for row in title.split("\n")] == [True] * 3
+    assert title.split("\n")[1].endswith(" …")
+    assert title.endswith("\nsecond")
+    assert drawn(tmp_path, "", "second") == "\nsecond"
+    assert len(drawn(tmp_path, "a" * 1000).split("\n")) <= 2
+
+
+@pytest.mark.parametrize("text", ["$x$", "a $\\frac{1", "$$", "100 % \\alpha_{", "50 $ and 60 $"])
+def test_dollars_are_no_formulas(tmp_path, text):
+    assert drawn(tmp_path, text) == text
+
+
+def test_any_script(tmp_path):
+    assert drawn(tmp_path, "Велосипед λ = 18°") == "Велосипед λ = 18°"
+    title = drawn(tmp_path, "a\x07b 日本 \U0001f6b2 \u202e\udc80 \U0010ffff c")
+    assert title.startswith("a\N{REPLACEMENT CHARACTER}b ")
+    assert title.endswith("\N{REPLACEMENT CHARACTER} c")
