@@ -18,13 +18,16 @@ SPEEDS = (4.0, 5.0, 6.0)  # m/s
 
 @dataclass(frozen=True)
 class Ranked:
-    """A design's modal controllability, and the share of the designs stable at that speed that have less."""
+    """A design's modal controllability, and the share of the designs stable at that speed that have less.
+
+    Both are None where the design is not stable at that speed.
+    """
 
     design: str
     lam: float
     sigma: float
-    controllability: float
-    better_than: float
+    controllability: float | None
+    better_than: float | None
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,9 @@ def controllability(
         ranked = []
         for name, (lam, sigma) in margins.items():
             value = float(modal_controllability(bicycle, lam, sigma, V))
-            ranked.append(Ranked(name, lam, sigma, value, float(np.mean(values < value))))
+            rank = value, float(np.mean(values < value))
+            steady = bool(stable(characteristic_table(bicycle, lam, sigma), V))
+            ranked.append(Ranked(name, lam, sigma, *(rank if steady else (None, None))))
         result.append(
             Controllability(V, len(values), float(x[best]), float(y[best]), float(all_values[best]), ranked)
         )

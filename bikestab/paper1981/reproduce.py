@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.files import unwritable, written
-from bikestab.model import MODELS
 from bikestab.paper1981 import pictures
 from bikestab.paper1981.box import FULL, LAM, SIGMA, Sampling, V
 from bikestab.paper1981.margin import searched, whole_box
@@ -21,7 +20,6 @@ from bikestab.paper1981.report import rendered
 from bikestab.paper1981.study import TABLE, Progress, Study, plain, study
 from bikestab.plot.designs import draw_designs
 from bikestab.plot.files import save
-from bikestab.plot.side import draw_side
 from bikestab.region.curves import trace
 from bikestab.region.mesh import region_mesh
 
@@ -51,14 +49,12 @@ def reproduce(
 def draw_all(numbers: Study, sampling: Sampling) -> Iterator[tuple[str, Figure]]:
     """Names and figures, one at a time."""
     bicycle = Bicycle.preset(BICYCLE)
-    meshes = {
-        model: region_mesh(Family(bicycle, model), LAM, SIGMA, V, cells=sampling.cells) for model in MODELS
-    }
+    mesh = region_mesh(Family(bicycle), LAM, SIGMA, V, cells=sampling.cells)
     samples, conclusions = sampling.picture, numbers.conclusions
-    yield "machine.png", draw_side(bicycle, *TABLE[0])
+    yield "machine.png", pictures.draw_machine(bicycle, *TABLE[0])
     yield "figure3.png", pictures.draw_sections(bicycle, samples)
-    yield "figure3_space.png", pictures.draw_space(bicycle, meshes["refined"])
-    yield "refinement.png", pictures.draw_refinement(bicycle, SECTION, meshes, samples)
+    yield "figure3_space.png", pictures.draw_space(bicycle, mesh)
+    yield "refinement.png", pictures.draw_refinement(bicycle, SECTION, samples)
     examples = [(e.lam, e.sigma) for e in conclusions.finite_interval.numbers.counterexamples]
     yield "conclusion1.png", pictures.draw_kinds(bicycle, examples, samples)
     yield "conclusion2.png", pictures.draw_widths(bicycle, samples)

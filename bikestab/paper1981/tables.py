@@ -143,10 +143,18 @@ def _controllability(n: Margin) -> str:
         where = f"λ = {number(at.lam, '.3f')}, σ = {number(at.sigma, '.3f')}"
         best = f"{number(at.controllability, '.4f')} at {where}"
         margins = [
-            f"{number(r.controllability, '.4f')} ({number(r.better_than, '3p')})" for r in at.of_margins
+            "–"
+            if r.controllability is None
+            else f"{number(r.controllability, '.4f')} ({number(r.better_than, '3p')})"
+            for r in at.of_margins
         ]
         rows.append([f"{at.V:g}", str(at.designs), best, *margins])
-    head = ["V [m/s]", "stable designs", "best of them", *(r.design for r in n.controllability[0].of_margins)]
+    head = [
+        "V [m/s]",
+        "stable designs",
+        "best of the grid",
+        *(r.design for r in n.controllability[0].of_margins),
+    ]
     return table(head, rows)
 
 

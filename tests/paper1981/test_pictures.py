@@ -8,6 +8,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.paper1981.box import LAM, SIGMA, V
+from bikestab.paper1981.pictures.machine import PITCH, draw_machine
 from bikestab.paper1981.pictures.ticks import oriented
 from bikestab.paper1981.reproduce import draw_all
 from bikestab.paper1981.study import ARROW, FIGURES
@@ -54,4 +55,19 @@ def test_figures_are_drawn():
     assert len(left.lines) > 12
     assert len(right.lines) > 12
     words = [t.get_text() for t in found["refinement.png"].findobj(Text)]
-    assert "no stable motion in this box" in words
+    assert "unrefined: conditions at λ = 0.3 rad, no stable motion" in words
+    words = {t.get_text() for t in found["machine.png"].findobj(Text)}
+    assert {"φ0", "α", "β", "L", "d1", "λ"} <= words
+
+
+def test_the_frame_s_lengths_are_those_of_the_printed_block():
+    """l1, h1, l2, h2 from the lines that are drawn, by the repaired block before (1.2)."""
+    bicycle, lam, sigma = Bicycle.preset("dikarev1981"), 0.2, 0.08
+    green = [line for line in draw_machine(bicycle, lam, sigma).axes[0].lines if line.get_marker() == "o"]
+    green = [line.get_xydata() for line in green if line.get_color() == "#00795a"]
+    L, alpha, beta, d1 = (float(np.hypot(*(line[1] - line[0]))) for line in green)
+    assert bicycle.l1 == pytest.approx(alpha * np.cos(PITCH) + beta * np.sin(PITCH))
+    assert bicycle.h1 == pytest.approx(bicycle.R1 - alpha * np.sin(PITCH) + beta * np.cos(PITCH))
+    d = bicycle.h2 * np.sin(lam) + (bicycle.l2 - bicycle.c * (1 + sigma)) * np.cos(lam)
+    assert bicycle.l2 == pytest.approx(L * np.cos(PITCH) + d * np.cos(lam) - d1 * np.sin(lam))
+    assert bicycle.h2 == pytest.approx(bicycle.R1 - L * np.sin(PITCH) + d * np.sin(lam) + d1 * np.cos(lam))

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bikestab.bicycle import Bicycle
+from bikestab.paper1981.box import V
 from bikestab.paper1981.claims import THRESHOLDS
 from bikestab.paper1981.damped_designs import DampedDesign
 from bikestab.paper1981.damping import Damping
@@ -33,7 +34,7 @@ def draw_damping(bicycle: Bicycle, numbers: Damping) -> Figure:
     left, right = figure.subplots(1, 2)
     _single_designs(left, numbers.single_designs)
     _measures(right, numbers)
-    for ax, where in ((left, "lower left"), (right, "lower right")):
+    for ax, where in ((left, "upper left"), (right, "lower right")):
         ax.set(
             xscale="log",
             xlim=(numbers.deltas[0], numbers.deltas[-1]),
@@ -61,7 +62,7 @@ def _single_designs(ax: Axes, designs: list[DampedDesign]) -> None:
         ax.plot(delta, V2, color=colour, ls=style, lw=0.9)
     ax.set_ylabel(LABELS["V"])
     ax.set_title("thick: V₁; thin: V₂ (capsize, but weave at λ = 0.03), where bounded", fontsize=10)
-    ax.set_ylim(0, None)
+    ax.set_ylim(2, V[1])
 
 
 def _measures(ax: Axes, numbers: Damping) -> None:

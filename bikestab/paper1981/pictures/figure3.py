@@ -25,6 +25,7 @@ from bikestab.routh import CONDITIONS
 
 # black, blue, vermilion, green, purple, orange of Okabe and Ito (2008), darkened where text needs it
 _COLOURS = ("#000000", "#0072b2", "#d55e00", "#00795a", "#a8558a", "#b07700")
+_IN_LEGEND = {"spacing": 12, "length": 0.6}
 _LEAST_APART = 0.037  # of the speeds' axis: a line of text
 _FAMILIES: dict[Axis, tuple[float, ...]] = {"lam": FAMILY_LAM, "sigma": FAMILY_SIGMA}
 
@@ -36,7 +37,9 @@ def draw_sections(bicycle: Bicycle, samples: int) -> Figure:
     for ax, (fixed, values) in zip(figure.subplots(1, 2), _FAMILIES.items(), strict=True):
         _family(ax, bicycle, fixed, values, samples)
     handles = [entry(name, color="0.2", lw=1.7, ls=style) for name, style in EDGES.values()]
-    handles.append(entry("ticks: stable side", color="0.2", lw=0.9, path_effects=[TickedStroke(**TICKS)]))
+    handles.append(
+        entry("ticks: stable side", color="0.2", lw=0.9, path_effects=[TickedStroke(**TICKS | _IN_LEGEND)])
+    )
     legend_below(figure, handles)
     figure.suptitle(
         f"{bicycle.name}: boundaries of the stability region, computed for the box of figure 3", fontsize=11
@@ -69,7 +72,7 @@ def _label_ends(ax: Axes, ends: list[tuple[float, float, str, str]], right: floa
     for x, y, name, colour in sorted(ends, key=lambda end: end[1]):
         if x < 0.97 * right or y > 0.97 * top:
             ax.text(
-                x,
+                x - 0.012 * right,
                 top * 0.985,
                 name,
                 color=colour,

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from mpl_toolkits.mplot3d import Axes3D
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
-from bikestab.model import Model
+from bikestab.model import MODELS
 from bikestab.paper1981.box import SIGMA, V
-from bikestab.paper1981.pictures.ticks import ENDS, draw_ticked
+from bikestab.paper1981.pictures.ticks import draw_ticked
 from bikestab.plot.axes import label_axes
 from bikestab.plot.lines import entry, legend_below
-from bikestab.plot.region import draw_mesh
 from bikestab.plot.settings import own_settings
-from bikestab.region.mesh import Mesh
 from bikestab.region.section import Section, zero_curves
 from bikestab.routh import conditions
 
@@ -34,22 +31,17 @@ _TOP = V[1] / 2  # m/s
 
 
 @own_settings()
-def draw_refinement(bicycle: Bicycle, lam: float, meshes: dict[Model, Mesh], samples: int) -> Figure:
-    """Both models side by side: the conditions at one λ over (σ, V), and the regions."""
-    figure = Figure(figsize=(11, 9.6), layout="constrained")
-    grid = figure.add_gridspec(2, 2, height_ratios=[1, 1.25])
-    sheets: dict[str, Any] = {}
-    for column, (model, mesh) in enumerate(meshes.items()):
-        section = Section(Family(bicycle, model), "lam", lam)
-        _conditions(figure.add_subplot(grid[0, column]), section, samples)
-        space = cast("Axes3D", figure.add_subplot(grid[1, column], projection="3d", computed_zorder=False))
-        sheets |= {str(handle.get_label()): handle for handle in draw_mesh(space, mesh, list(ENDS.values()))}
+def draw_refinement(bicycle: Bicycle, lam: float, samples: int) -> Figure:
+    """Both models side by side: the conditions at one λ over (σ, V)."""
+    figure = Figure(figsize=(11, 5), layout="constrained")
+    for ax, model in zip(figure.subplots(1, 2), MODELS, strict=True):
+        _conditions(ax, Section(Family(bicycle, model), "lam", lam), samples)
     handles: list[Any] = [
         entry(f"{words} (ticks: positive)", color=colour, lw=1.7, ls=style)
         for colour, style, words in _SURFACES.values()
     ]
     handles.append(Patch(facecolor=_STABLE, label="stable"))
-    legend_below(figure, [*handles, *sheets.values()])
+    legend_below(figure, handles)
     return figure
 
 
@@ -65,4 +57,5 @@ def _conditions(ax: Axes, section: Section, samples: int) -> None:
             draw_ticked(ax, section, [name], x, y, color=colour, ls=style)
     ax.set(xlim=SIGMA, ylim=(0, _TOP))
     label_axes(ax, "sigma", "V", section.family.bicycle.c)
-    ax.set_title(f"{section.family.model}: conditions at λ = {section.value:g} rad", fontsize=10)
+    stable = "" if inside.any() else ", no stable motion"
+    ax.set_title(f"{section.family.model}: conditions at λ = {section.value:g} rad{stable}", fontsize=10)

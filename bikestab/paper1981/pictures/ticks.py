@@ -16,7 +16,7 @@ from bikestab.region.section import Section
 from bikestab.routh import conditions
 
 ENDS: dict[Axis, Range] = {"lam": LAM, "sigma": SIGMA, "V": V}
-TICKS: dict[str, Any] = {"spacing": 16, "angle": 60, "length": 0.5}
+TICKS: dict[str, Any] = {"spacing": 34, "angle": 60, "length": 0.22}
 _ASIDE = 2e-3  # of the axes: how far beside a curve its two sides are looked at
 
 
