@@ -5,11 +5,9 @@ A polynomial is an array of coefficients of x^0, x^1, … along the first axis, 
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.rounding import PRODUCTS
@@ -59,18 +57,32 @@ def difference_of(a: list[T | None], b: list[T | None]) -> list[T | None]:
     return out
 
 
-def value_of_powers(c: Floats, powers: NDArray[np.bool_], x: Floats, shape: tuple[int, ...]) -> Floats:
-    """``value`` of polynomials of which no cell has other powers than those marked; of the given shape."""
-    used = [j for j, some in enumerate(powers) if some] or [0]
-    out = c[used[-1]]
-    for high, low in pairwise(reversed(used)):
-        out = out * x ** (high - low)
-        out += c[low]
-    if used[0] > 0 and len(used) > 1:
-        out *= x ** used[0]
-    elif used[0] > 0:
-        out = out * x ** used[0]
+def value_of_cubics(c: Floats, x: Floats, shape: tuple[int, ...]) -> Floats:
+    """``value`` of polynomials of degree 3 as (c0 + c2 x²) + x (c1 + c3 x²), of the given shape.
+
+    What no cell has is left out; to add zeros would not change a bit, so that no cell's value depends on
+    others.
+    """
+    has = [bool(np.any(a)) for a in c]
+    square = x * x if has[2] or has[3] else x
+    even, odd = (_with_square(c[j], c[j + 2], has[j], has[j + 2], square) for j in (0, 1))
+    if odd is None:
+        out = np.zeros(()) if even is None else even
+    else:
+        out = odd * x
+        if even is not None:
+            out += even
     return out if np.shape(out) == shape else np.broadcast_to(out, shape)
+
+
+def _with_square(a: Floats, b: Floats, has_a: bool, has_b: bool, square: Floats) -> Floats | None:
+    """A + b x²."""
+    if not has_b:
+        return a if has_a else None
+    out = b * square
+    if has_a:
+        out += a
+    return out
 
 
 def derivative(c: Floats) -> Floats:

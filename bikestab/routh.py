@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.model import Floats
-from bikestab.polynomials import difference_of, product_of, value_of_powers
+from bikestab.polynomials import difference_of, product_of, value_of_cubics
 from bikestab.twofold import Double, Twofold
 
 T = TypeVar("T", Twofold, Double)
@@ -33,9 +33,8 @@ def coefficients_at(table: Floats, V: ArrayLike) -> tuple[Floats, Floats, Floats
     ``table`` has shape (5, 4, *shape) and V broadcasts against ``shape``.
     """
     V = np.asarray(V, dtype=float)
-    powers = np.any(table, axis=tuple(range(2, table.ndim)))  # powers of V that each row has in any cell
     shape = np.broadcast_shapes(table.shape[2:], V.shape)
-    p0, p1, p2, p3, p4 = (value_of_powers(table[k], powers[k], V, shape) for k in range(5))
+    p0, p1, p2, p3, p4 = (value_of_cubics(row, V, shape) for row in table)
     return p0, p1, p2, p3, p4
 
 
@@ -56,8 +55,7 @@ def condition(table: Floats, name: str, V: ArrayLike) -> Floats:
     if name == "hurwitz3":
         return conditions(table, V).hurwitz3
     V, row = np.asarray(V, dtype=float), table[CONDITIONS.index(name)]
-    powers = np.any(row, axis=tuple(range(1, row.ndim)))
-    return value_of_powers(row, powers, V, np.broadcast_shapes(row.shape[1:], V.shape))
+    return value_of_cubics(row, V, np.broadcast_shapes(row.shape[1:], V.shape))
 
 
 def violated(values: Conditions) -> NDArray[np.uint8]:

@@ -8,7 +8,15 @@ from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
-from bikestab.routh import CONDITIONS, coefficients_at, condition_polynomials, conditions, stable, violated
+from bikestab.routh import (
+    CONDITIONS,
+    coefficients_at,
+    condition,
+    condition_polynomials,
+    conditions,
+    stable,
+    violated,
+)
 from bikestab.speeds import intervals_of
 from tests.strategies import lams, machines, meijaard_machines, sigmas, speeds
 
@@ -121,5 +129,18 @@ def test_shapes_and_vectorised_equals_scalar(V):
         i, j = cell[-2:]
         speed = np.broadcast_to(V, values.p0.shape)[cell]
         for value, alone in zip(values, conditions(table[:, :, i, j], speed), strict=True):
-            assert value[cell] == pytest.approx(alone, rel=1e-14)
+            assert value[cell].tobytes() == alone.tobytes()
     assert coefficients_at(table, 0.0)[0].tolist() == table[0, 0].tolist()
+
+
+def test_a_cell_has_the_same_bits_beside_any_others():
+    """Tables with other powers of V beside them change nothing."""
+    rng = np.random.default_rng(8)
+    tables = rng.normal(size=(5, 4, 40)) * (rng.uniform(size=(5, 4, 40)) < 0.5)
+    V = rng.uniform(0, 20, 40)
+    together = conditions(tables, V)
+    for i in range(40):
+        for value, alone in zip(together, conditions(tables[..., i], V[i]), strict=True):
+            assert value[i] + 0.0 == alone + 0.0
+    for name in CONDITIONS:
+        assert np.array_equal(condition(tables, name, V), getattr(together, name))

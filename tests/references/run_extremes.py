@@ -26,7 +26,7 @@ from bikestab.region.curves import trace
 from bikestab.stability import modes
 
 SPEEDS = [0.0, 0.5, 5.0, 20.0]
-EVERY = {"vrange": 1, "eigen": 1, "trace": 10, "design": 100}  # a search takes as long as a hundred answers
+EVERY = {"speeds": 1, "vrange": 10, "eigen": 5, "trace": 500, "design": 5000}  # by how long they take
 
 
 def machine(rng: np.random.Generator) -> tuple[dict[str, float], float, float]:
@@ -90,6 +90,7 @@ def outcomes(seed: int) -> dict[str, tuple[str, str]]:
     bicycle = Bicycle.from_mapping(values)
     family = Family(bicycle)
     ways: dict[str, Callable[[], Any]] = {
+        "speeds": lambda: stable_speeds(bicycle, [lam], [sigma], nearest=False),
         "vrange": lambda: stable_speeds(bicycle, [lam], [sigma]),
         "eigen": lambda: modes(bicycle, SPEEDS, lam, sigma),
         "trace": lambda: trace(family, (-0.2, 0.6), (-0.5, 0.5), samples=41),
