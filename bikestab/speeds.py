@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.certain import ascending
 from bikestab.critical import Critical, critical
 from bikestab.entries import Cells, cells_of
 from bikestab.model import ExactTable, Floats
@@ -42,7 +44,8 @@ class Intervals:
     ``lower`` and ``upper`` are indices into KINDS: what happens at either end. The true ends are within
     ``V1_error`` and ``V2_error`` [m/s]: those of exactly these inputs if the table came from
     ``exact_table``, of exactly this table if it did not. Where the number of intervals or the kind of an
-    end is within rounding, the cell's first ``marginal`` is an index into REASONS, else 0.
+    end is within rounding, the cell's first ``marginal`` is an index into REASONS, else 0; only there an
+    error may be inf: no bound is known.
     Iteration gives V1, V2, lower and upper.
 
     >>> import bikestab as bs
@@ -169,26 +172,19 @@ def _ends(critical: Critical) -> _Ends:
     exists = np.isfinite(V)
     kind = np.where(exists, kind[:, np.newaxis], NONE).astype(np.uint8)
     V, rest, radius = (np.where(exists, a, b) for a, b in ((V, np.inf), (rest, 0.0), (radius, 0.0)))
-    rows = V, rest, radius, kind
-    # few rows: numpy sorts each column by itself, which takes ten times as long
-    for last in range(len(V) - 1, 0, -1):
-        for i in range(last):
-            wrong = (V[i] > V[i + 1]) | ((V[i] == V[i + 1]) & (rest[i] > rest[i + 1]))
-            for values in rows:
-                values[i], values[i + 1] = (
-                    np.where(wrong, values[i + 1], values[i]),
-                    np.where(wrong, values[i], values[i + 1]),
-                )
-    return _Ends(*rows)
+    ascending(V, rest, radius, kind)
+    return _Ends(V, rest, radius, kind)
 
 
 def _out_of_order(ends: _Ends) -> NDArray[np.bool_]:
-    """The cells in which neighbouring ends of different kinds may be the other way round."""
+    """The cells in which two ends of different kinds may be the other way round."""
     V, rest, radius, kind = ends
-    with np.errstate(invalid="ignore"):
-        gap = (V[1:] - V[:-1]) + (rest[1:] - rest[:-1])
-    close = (kind[1:] != NONE) & (gap <= radius[1:] + radius[:-1]) & (kind[1:] != kind[:-1])
-    return np.asarray(close.any(axis=0))
+    close = np.zeros(V.shape[1:], bool)
+    for i, k in combinations(range(len(V)), 2):
+        with np.errstate(invalid="ignore"):
+            gap = (V[k] - V[i]) + (rest[k] - rest[i])
+        close |= (kind[k] != NONE) & (kind[k] != kind[i]) & (gap <= radius[k] + radius[i])
+    return close
 
 
 def _others_positive(
