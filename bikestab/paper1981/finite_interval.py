@@ -7,13 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bikestab.bicycle import Bicycle
-from bikestab.family import Family
-from bikestab.paper1981.box import LAM, PAPER_BOX, SIGMA, DesignBox, Sampling
+from bikestab.paper1981.box import PAPER_BOX, DesignBox, Sampling
 from bikestab.paper1981.forks import offset
-from bikestab.paper1981.maps import DesignMap, Shares, shares_along_lines
+from bikestab.paper1981.maps import DesignMap, Shares, box_curves, shares_along_lines
 from bikestab.paper1981.one_design import Interval, eigenvalues, intervals
 from bikestab.paper1981.random_machines import RandomMachines, study_random_machines
-from bikestab.region.curves import trace
 
 COUNTEREXAMPLES = ((0.05, 0.15), (0.08, 0.13), (0.11, 0.145))  # (λ, σ) between the two curves at infinity
 FAR = (100.0, 1000.0)  # m/s
@@ -190,6 +188,6 @@ def _curves_at_infinity(bicycle: Bicycle, samples: int) -> list[CurveAtInfinity]
             curve.name,
             *(CurveEnd(float(curve.x[at]), float(curve.y[at]), curve.ends[at]) for at in (0, -1)),
         )
-        for curve in trace(Family(bicycle), LAM, SIGMA, samples=samples)
+        for curve in box_curves(bicycle, samples)
         if curve.name.endswith("infinity")
     ]

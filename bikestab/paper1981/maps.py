@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from bikestab.model import Floats, Model, characteristic_table
 from bikestab.paper1981.box import LAM, PAPER_BOX, DesignBox, Range, V, middles
 from bikestab.paper1981.forks import bent_forwards, least_tilt
 from bikestab.paper1981.several import groups, together
+from bikestab.region.curves import Curve, trace
 from bikestab.region.lines import Line, crossings
 from bikestab.speeds import Intervals, intervals_of
 
@@ -85,6 +86,12 @@ def map_designs(
     ]
     number, unbounded, formula, total, widest = (np.concatenate(of) for of in zip(*parts, strict=True))
     return DesignMap(x, y, number, unbounded, formula, total, widest, bent_forwards(bicycle, x, y))
+
+
+@cache
+def box_curves(bicycle: Bicycle, samples: int) -> list[Curve]:
+    """The curves of the paper's box; the same ones are tabled and drawn."""
+    return trace(Family(bicycle), LAM, PAPER_BOX.sigma, samples=samples)
 
 
 def map_each(bicycles: Sequence[Bicycle], n: int, box: DesignBox = PAPER_BOX) -> list[DesignMap]:

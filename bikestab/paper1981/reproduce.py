@@ -14,13 +14,13 @@ from bikestab.family import Family
 from bikestab.files import unwritable, written
 from bikestab.paper1981 import pictures
 from bikestab.paper1981.box import FULL, LAM, SIGMA, Sampling, V
+from bikestab.paper1981.maps import box_curves
 from bikestab.paper1981.margin import searched, whole_box
 from bikestab.paper1981.refinement import SECTION
 from bikestab.paper1981.report import rendered
 from bikestab.paper1981.study import TABLE, Progress, Study, plain, study
 from bikestab.plot.designs import draw_designs
 from bikestab.plot.files import save
-from bikestab.region.curves import trace
 from bikestab.region.mesh import region_mesh
 
 BICYCLE = "dikarev1981"
@@ -60,7 +60,7 @@ def draw_all(numbers: Study, sampling: Sampling) -> Iterator[tuple[str, Figure]]
     yield "conclusion2.png", pictures.draw_widths(bicycle, samples)
     wanted = whole_box(bicycle)
     best = searched(wanted, sampling.search)
-    yield "conclusion3.png", draw_designs(wanted, best, trace(wanted.family, LAM, SIGMA, samples=samples))
+    yield "conclusion3.png", draw_designs(wanted, best, box_curves(bicycle, samples))
     yield "conclusion4.png", pictures.draw_damping(bicycle, conclusions.damping.numbers)
 
 

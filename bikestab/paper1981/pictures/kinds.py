@@ -14,12 +14,12 @@ from matplotlib.patches import Patch, Rectangle
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.paper1981.box import LAM, SIGMA, DesignBox
-from bikestab.paper1981.maps import map_designs
+from bikestab.paper1981.maps import box_curves, map_designs
 from bikestab.plot.axes import HALO, label_axes
 from bikestab.plot.designs import CURVES
 from bikestab.plot.lines import draw_on_white, entry, legend_below
 from bikestab.plot.settings import own_settings
-from bikestab.region.curves import trace
+from bikestab.region.curves import Curve, trace
 
 _KINDS = {"no stable speed": "#ffffff", "bounded interval": "#bcd7ea", "no upper limit": "#e69f00"}
 _TOP = 1.6 * SIGMA[1]  # of the picture, above the paper's box
@@ -30,19 +30,21 @@ _LEAST = 0.01  # of a side: a shorter curve is not seen
 
 @own_settings()
 def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], samples: int) -> Figure:
-    """Kinds of designs over (λ, σ), with the exact curves between them and counterexamples (λ, σ).
+    """Kinds of designs over (λ, σ), with the exact curves in the paper's box, and counterexamples (λ, σ).
 
     The line b = 0 and an inset where two intervals meet the box.
     """
     figure = Figure(figsize=(8.2, 6.6), layout="constrained")
     ax = figure.add_subplot()
-    styles = _kinds(ax, bicycle, DesignBox(LAM, (SIGMA[0], _TOP)), samples)
+    around = DesignBox(LAM, (SIGMA[0], _TOP))
+    styles = _kinds(ax, bicycle, around, samples, box_curves(bicycle, samples))
     _box(ax)
     _no_offset(ax, bicycle)
     _numbered(ax, examples)
     label_axes(ax, "lam", "sigma", bicycle.c)
     inset = ax.inset_axes(_INSET_AT)
-    styles |= _kinds(inset, bicycle, _INSET, samples)
+    inside = trace(Family(bicycle), _INSET.lam, _INSET.sigma, samples=samples)
+    styles |= _kinds(inset, bicycle, _INSET, samples, inside)
     inset.axhline(SIGMA[1], color="black", lw=1.6)
     inset.set_xticks([0.046, 0.048, 0.05])
     inset.set_yticks([0.15, 0.152, 0.154])
@@ -58,8 +60,10 @@ def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], sample
     return figure
 
 
-def _kinds(ax: Axes, bicycle: Bicycle, box: DesignBox, samples: int) -> dict[str, tuple[str, Any]]:
-    """The kinds and the curves between them in a box; what the curves look like."""
+def _kinds(
+    ax: Axes, bicycle: Bicycle, box: DesignBox, samples: int, curves: list[Curve]
+) -> dict[str, tuple[str, Any]]:
+    """The kinds in a box, and curves between them; what the curves look like."""
     designs = map_designs(bicycle, samples, box)
     kind = np.where(designs.unbounded, 2, (designs.number > 0).astype(int))
     ax.pcolormesh(
@@ -67,7 +71,7 @@ def _kinds(ax: Axes, bicycle: Bicycle, box: DesignBox, samples: int) -> dict[str
         shading="nearest", rasterized=True,
     )  # fmt: skip
     styles: dict[str, tuple[str, Any]] = {}
-    for curve in trace(Family(bicycle), box.lam, box.sigma, samples=samples):
+    for curve in curves:
         visible = max(np.ptp(curve.x) / np.ptp(box.lam), np.ptp(curve.y) / np.ptp(box.sigma))
         if visible > _LEAST:
             styles[curve.name] = color, dashes = CURVES[curve.name]
