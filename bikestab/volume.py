@@ -5,17 +5,21 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from copy import copy
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError, nearest
 from bikestab.fields import FIELDS, Axis
+from bikestab.hdf5 import open_file, text_of
+from bikestab.layout import check_values, machine_names, sweep_names
 from bikestab.model import Floats, Model
+from bikestab.volumecheck import check_volume
+from bikestab.watched import watched
 
 if TYPE_CHECKING:
     import xarray
@@ -33,35 +37,13 @@ class Volume:
     """
 
     def __init__(self, path: str | Path) -> None:
-        self.path = Path(path)
-        if self.path.is_dir() and (self.path / "volume.h5").is_file():
-            self.path = self.path / "volume.h5"
-        place = str(path)
-        if not self.path.is_file():
-            folder = self.path if self.path.is_dir() else self.path.parent
-            if (folder / "volume.h5.tiles").exists():
-                hint = "'bikestab scan CONFIG' goes on where it was stopped"
-                raise InputError("holds a scan that is not finished", place=place, hint=hint)
-            raise InputError("there is no such volume", place=place, hint="'bikestab scan CONFIG' writes one")
+        self.path = _found(Path(path))
         try:
-            self.path.open("rb").close()
-            self.file = h5py.File(self.path, "r")
-        except PermissionError as error:
-            raise InputError(f"cannot be read ({error.strerror})", place=place) from None
-        except OSError as error:
-            problem = "is not an HDF5 file, or a damaged one"
-            if "unable to lock" in str(error):
-                problem = "is being written to by another program"
-            raise InputError(problem, place=place) from None
-        attributes = self.file.attrs
-        if "config_sha256" not in attributes or "lam" not in self.file:
-            self.file.close()
-            raise InputError("is an HDF5 file, but no volume of bikestab", place=place)
-        if not attributes.get("complete", 0):
-            self.file.close()
-            raise InputError("is incomplete", place=place, hint="'bikestab scan --force' writes it again")
-        axes = [dim[0].name[1:] for dim in self.file["machine"].dims][:-1] if "machine" in self.file else []
-        self.swept: dict[str, Floats] = {name: self.file[name][()] for name in axes}
+            watched(partial(check_volume, self.path))
+            self.file = open_file(self.path)
+        except InputError as error:
+            raise error.at(str(path)) from None
+        self.swept: dict[str, Floats] = {name: self.file[name][()] for name in sweep_names(self.file)}
         self._chosen: dict[str, int] = {}
 
     def __enter__(self) -> Self:
@@ -76,22 +58,26 @@ class Volume:
 
     def text(self, name: str) -> str:
         """A text attribute of the file."""
-        value = self.file.attrs[name]
-        return value.decode() if isinstance(value, bytes) else str(value)
+        return text_of(self.file, name)
 
     def read(self, name: str, where: tuple[int | slice, ...] = ()) -> NDArray[Any]:
         """A dataset or a part of it, without the sweep's axes where a machine was chosen.
 
-        Raises InputError where the file is damaged there.
+        Raises InputError where the file is damaged there, or has values that the dataset cannot have.
         """
         data = self.file[name]
         if self._chosen and data.ndim > len(self._chosen) + 1:
             where = (*self._chosen.values(), *where)
         try:
-            return data[where]
+            values = data[where]
         except OSError:
             problem = f"is damaged: {name} cannot be read"
             raise InputError(problem, place=str(self.path), hint="scan again with --force") from None
+        try:
+            check_values(name, values)
+        except InputError as error:
+            raise error.at(str(self.path)) from None
+        return values
 
     def axis(self, name: Axis) -> Floats:
         """The values of λ [rad], σ [1] or V [m/s]."""
@@ -157,16 +143,32 @@ class Volume:
         numbers = json.loads(self.text("bicycle_parameters"))
         if self._chosen:
             row = self.file["machine"][tuple(self._chosen.values())].tolist()
-            names = self.file["machine"].attrs["names"].decode().split()
+            names = machine_names(self.file["machine"])
             numbers = {
                 name: None if np.isnan(value) else value for name, value in zip(names, row, strict=True)
             }
-        return Bicycle(**numbers, name=self.text("bicycle"), source=self.text("references"))
+        try:
+            return Bicycle(**numbers, name=self.text("bicycle"), source=self.text("references"))
+        except InputError as error:
+            raise error.at(str(self.path), under=("machine",)) from None
 
     @property
     def model(self) -> Model:
         """``refined`` or ``unrefined``."""
         return self.text("model")  # type: ignore[return-value]  # written from a Model
+
+
+def _found(path: Path) -> Path:
+    """The file of a volume, told by its own name or by its folder's; InputError where there is none."""
+    if path.is_dir() and (path / "volume.h5").is_file():
+        return path / "volume.h5"
+    if path.is_file():
+        return path
+    folder = path if path.is_dir() else path.parent
+    if (folder / "volume.h5.tiles").exists():
+        hint = "'bikestab scan CONFIG' goes on where it was stopped"
+        raise InputError("holds a scan that is not finished", place=str(path), hint=hint)
+    raise InputError("there is no such volume", place=str(path), hint="'bikestab scan CONFIG' writes one")
 
 
 def parameters_text(bicycle: Bicycle) -> str:

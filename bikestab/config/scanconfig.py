@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
 
 from bikestab.bicycle import PAPER, Bicycle
-from bikestab.config.meaning import digest, drawn_around, yaml_text
+from bikestab.config.meaning import drawn_around, yaml_text
 from bikestab.config.members import (
     Member,
     SweptAxis,
@@ -39,6 +39,7 @@ from bikestab.config.values import (
 from bikestab.config.variation import SWEPT, Ensemble, with_units
 from bikestab.errors import InputError, nearest
 from bikestab.fields import AXES, Axis, askable
+from bikestab.identity import identity
 from bikestab.model import Floats, Model
 from bikestab.notation import MEIJAARD
 from bikestab.presets import preset_names
@@ -230,12 +231,11 @@ class ScanConfig(Strict):
     @cached_property
     def sha256(self) -> str:
         """The SHA-256 of what is computed: title, texts, slices, output and what is expected do not count."""
-        ensemble = self.ensemble
-        return digest({
-            "model": self.model,
-            "machines": np.array([list(member.bicycle.numbers().values()) for member in self.members], float),
-            "grid": [self.grid.values(name) for name in AXES],
-            "fields": sorted(set(self.fields)),
-            "sweep": [[axis.name, axis.values] for axis in self.axes],
-            "ensemble": ensemble and {**ensemble.meaning, "around": drawn_around(self.machine)},
-        })  # fmt: skip
+        rows = [list(member.bicycle.numbers().values()) for member in self.members]
+        drawn = None
+        if self.ensemble:
+            drawn = {**self.ensemble.meaning, "around": drawn_around(self.machine)}
+        return identity(
+            self.model, np.array(rows, float), [self.grid.values(name) for name in AXES], self.fields,
+            {axis.name: axis.values for axis in self.axes}, drawn,
+        )  # fmt: skip

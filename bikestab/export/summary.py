@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bikestab.fields import AXES
+from bikestab.fields import AXES, COORDINATES
 from bikestab.volume import Volume, uniform
 
 
@@ -42,7 +42,7 @@ def summary(volume: Volume) -> dict[str, Any]:
                 "first": float(values[0]),
                 "last": float(values[-1]),
                 "num": len(values),
-                "unit": file[name].attrs["units"].decode(),
+                "unit": COORDINATES[name][0],
                 "uniform": uniform(values),
             }
             for name, values in ((name, volume.axis(name)) for name in AXES)

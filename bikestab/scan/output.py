@@ -16,12 +16,12 @@ import numpy as np
 from pydantic import ValidationError
 
 from bikestab import yamltext
-from bikestab.config.meaning import digest
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.config.variation import Ensemble
-from bikestab.errors import KEPT, InputError, ScanError
+from bikestab.errors import KEPT, InputError, ScanError, dotted
 from bikestab.fields import AXES, FIELDS
 from bikestab.files import NO_SPACE, beside, linked
+from bikestab.identity import digest
 from bikestab.model import Floats
 from bikestab.scan.labels import texts
 from bikestab.scan.plan import Plan
@@ -107,11 +107,10 @@ def own_volume(plan: Plan) -> int | None:
             stable_points = int(volume.file.attrs["stable_points"])
             other = {name: text for name, text in texts(config).items() if volume.text(name) != text}
     except InputError as error:
-        if error.key:
+        if error.key == ("output",):
             raise
-        raise InputError(
-            f"{path} exists, and {error.problem}", key=("output",), hint="--force replaces it"
-        ) from None
+        problem = f"{path} exists, and {' '.join([dotted(error.key), error.problem]).strip()}"
+        raise InputError(problem, key=("output",), hint="--force replaces it") from None
     if other:
         _replace_texts(path, other)
     return stable_points

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.config.file import parse_config
-from bikestab.config.meaning import digest
 from bikestab.config.scanconfig import ScanConfig
+from bikestab.identity import digest
 from tests.configs import GOOD, IN_PLACE, change, load
 from tests.strategies import machines
 

@@ -1,0 +1,69 @@
+"""What a volume holds: the names, types and axes of its datasets, and what their values may be.
+
+docs/format.md says the same in words. Volumes of earlier builds lack some of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from bikestab.errors import InputError
+from bikestab.fields import AXES, FIELDS
+from bikestab.routh import CONDITIONS
+from bikestab.speeds import KINDS, REASONS
+
+TEXTS = (
+    "title", "references", "bicycle", "bicycle_parameters", "warnings", "model", "config", "config_sha256",
+    "bikestab_version",
+)  # fmt: skip
+MOST_INTERVALS = 20  # of one design: hurwitz3 and p0 have fewer roots than that
+BOUNDS = ("V1_error", "V2_error", "marginal")  # which earlier builds did not write
+# what values may at most be
+LARGEST = {"lower": len(KINDS) - 1, "upper": len(KINDS) - 1, "marginal": len(REASONS) - 1, "probability": 1}
+LARGEST |= {f"boundary/{name}_edge": 1 for name in CONDITIONS}
+LARGEST |= {field.name: len(field.flags) - 1 for field in FIELDS.values() if field.flags}
+LARGEST |= {field.name: (1 << len(field.masks)) - 1 for field in FIELDS.values() if field.masks}
+
+
+def expected(fields: list[str], ensemble: bool, bounds: bool) -> Iterator[tuple[str, tuple[str, ...], type]]:
+    """The datasets of a volume that are no coordinates: name, axes behind those of the sweep, type."""
+    for name in fields:
+        yield name, AXES, FIELDS[name].dtype
+    ends = ("V1", "V2", *(BOUNDS[:2] if bounds else ()))
+    yield from ((name, ("lam", "sigma", "interval"), np.float64) for name in ends)
+    yield from ((name, ("lam", "sigma", "interval"), np.uint8) for name in ("lower", "upper"))
+    if bounds:
+        yield "marginal", ("lam", "sigma"), np.uint8
+    for name in CONDITIONS:
+        yield f"boundary/{name}", ("lam", "sigma", "root"), np.float64
+        yield f"boundary/{name}_edge", ("lam", "sigma", "root"), np.uint8
+    if ensemble:
+        yield from ((f"{name}_quantiles", ("lam", "sigma", "quantile"), np.float64) for name in ("V1", "V2"))
+        for name in ("probability_somewhere", "probability_unbounded"):
+            yield name, ("lam", "sigma"), np.float64
+
+
+def sweep_names(file: h5py.File) -> list[str]:
+    """The names of the sweep's axes, which are those of the dataset of its machines."""
+    if "machine" not in file:
+        return []
+    return [dim[0].name[1:] for dim in file["machine"].dims][:-1]
+
+
+def machine_names(data: h5py.Dataset) -> list[str]:
+    """The names of the parameters that a volume has of each machine of its sweep."""
+    return data.attrs["names"].decode().split()
+
+
+def check_values(name: str, values: NDArray[Any]) -> None:
+    """Raise InputError where values read from a dataset cannot be its own."""
+    if name in LARGEST and values.size and not 0 <= np.min(values) <= np.max(values) <= LARGEST[name]:
+        problem = f"has values that are not within 0 ... {LARGEST[name]}"
+        raise InputError(problem, key=(name,))
+    if name == "growth_rate" and np.isnan(values).any():
+        raise InputError("has values that are no numbers", key=(name,))

@@ -1,0 +1,190 @@
+"""A volume that others may have made → whether it is a whole one: every object of it, checked once.
+
+What is wrong is told with the object's name. Values of fields are checked where they are read (``layout``).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import string
+from dataclasses import MISSING
+from math import inf, prod
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from bikestab.bicycle import PAPER, Bicycle, parameters
+from bikestab.errors import InputError
+from bikestab.fields import AXES, COORDINATES, FIELDS
+from bikestab.hdf5 import check_links, check_whole, dataset, number_of, open_file, reading, text_of
+from bikestab.identity import identity
+from bikestab.layout import BOUNDS, MOST_INTERVALS, TEXTS, expected, machine_names, sweep_names
+from bikestab.limits import MOST, check_speed, check_tilt, check_trail
+from bikestab.model import Floats
+from bikestab.notation import MEIJAARD
+
+
+def check_volume(path: Path) -> None:
+    """Raise InputError, which names the object, unless a file is a whole volume."""
+    with open_file(path) as file:
+        with reading():
+            if "config_sha256" not in file.attrs or "lam" not in file:
+                raise InputError("is an HDF5 file, but no volume of bikestab")
+            if "complete" not in file.attrs or not number_of(file, "complete", 0, 1):
+                raise InputError("is incomplete", hint="'bikestab scan --force' writes it again")
+        check_links(file)
+        texts = {name: text_of(file, name) for name in TEXTS}
+        if texts["model"] not in ("refined", "unrefined"):
+            raise InputError(f"the attribute 'model' is {texts['model'][:40]!r}")
+        swept = _sweep(file)
+        grid: dict[str, Floats] = {name: _coordinate(file, name, COORDINATES[name][0]) for name in AXES}
+        _check_grid(grid)
+        lengths = {name: len(values) for name, values in (swept | grid).items()}
+        _check_datasets(file, lengths, list(swept))
+        _check_numbers(file, prod(lengths.values()))
+        _check_identity(file, texts, swept, grid)
+
+
+def _sweep(file: h5py.File) -> dict[str, Floats]:
+    """The values of the sweep's axes by their names."""
+    with reading("machine"):
+        names = sweep_names(file)
+    known = {**PAPER, **MEIJAARD}
+    for name in names:
+        if name not in known:
+            raise InputError(f"has an axis {name[:40]!r}, which is no parameter", key=("machine",))
+    if len(set(names)) < len(names):
+        raise InputError("has the same axis twice", key=("machine",))
+    return {name: _coordinate(file, name) for name in names}
+
+
+def _coordinate(file: h5py.File, name: str, unit: str = "") -> Floats:
+    data = dataset(file, name, np.float64)
+    with reading(name):
+        values = data[()]
+        there = data.attrs.get("units", b"")
+    there = there.decode("utf-8", "replace") if isinstance(there, bytes) else str(there)
+    if unit and there != unit:
+        raise InputError(f"is in {there[:40]!r}, not in {unit!r}", key=(name,))
+    if not len(values) or not np.all(np.isfinite(values)):
+        raise InputError("is empty, or has values that are not finite", key=(name,))
+    if not np.all(np.diff(values) > 0):
+        raise InputError("has values that do not increase", key=(name,))
+    return values
+
+
+def _check_grid(grid: dict[str, Floats]) -> None:
+    for name, check in zip(AXES, (check_tilt, check_trail, check_speed), strict=True):
+        if len(grid[name]) < 2:
+            raise InputError("has a single value", key=(name,))
+        for value in (grid[name][0], grid[name][-1]):
+            check(float(value), (name,))
+
+
+def _check_datasets(file: h5py.File, lengths: dict[str, int], lead: list[str]) -> None:
+    with reading():
+        fields = [name for name in FIELDS if name in file]
+        ensemble = "ensemble_samples" in file.attrs
+        bounds = any(name in file for name in BOUNDS)
+    if not fields:
+        raise InputError("has no field")
+    for name in ("interval", "root", *(("parameter",) if lead else ())):
+        lengths[name] = _counter(file, name)
+    if lengths["interval"] > MOST_INTERVALS:
+        raise InputError(f"is longer than {MOST_INTERVALS}", key=("interval",))
+    if ensemble:
+        lengths["quantile"] = len(_coordinate(file, "quantile"))
+    if ensemble != ("probability" in fields):
+        raise InputError("is there without an ensemble, or the reverse", key=("probability",))
+    with reading("boundary"):
+        if not isinstance(file.get("boundary"), h5py.Group):
+            raise InputError("is no group", key=("boundary",))
+    for name, axes, dtype in expected(fields, ensemble, bounds):
+        data = dataset(file, name, dtype, tuple(lengths[axis] for axis in (*lead, *axes)))
+        if name in fields:
+            with reading(name):
+                check_whole(data)
+    if lead:
+        shape = tuple(lengths[axis] for axis in (*lead, "parameter"))
+        _check_machines(dataset(file, "machine", np.float64, shape))
+
+
+def _counter(file: h5py.File, name: str) -> int:
+    data = dataset(file, name, np.int32)
+    with reading(name):
+        values = data[()]
+    if not len(values) or not np.array_equal(values, np.arange(1, len(values) + 1)):
+        raise InputError("has not the values 1, 2, ...", key=(name,))
+    return len(values)
+
+
+def _check_machines(data: h5py.Dataset) -> None:
+    with reading("machine"):
+        names = machine_names(data)
+    _check_names(names, "machine")
+    if len(names) != data.shape[-1]:
+        raise InputError(f"has {data.shape[-1]} parameters, but {len(names)} names", key=("machine",))
+
+
+def _check_names(names: list[str], where: str) -> None:
+    known = {p.name: p for p in parameters()}
+    for name in names:
+        if name not in known:
+            raise InputError(f"{name[:40]!r} is no parameter", key=(where,))
+    for name, parameter in known.items():
+        if parameter.default is MISSING and name not in names:
+            raise InputError(f"has no {name}", key=(where,))
+
+
+def _check_numbers(file: h5py.File, points: int) -> None:
+    with reading():
+        number_of(file, "stable_points", 0, points)
+        if "ensemble_samples" in file.attrs:
+            number_of(file, "ensemble_samples", 1, MOST)
+        number_of(file["boundary"], "largest_difference", 0, inf)
+        if "largest_bracketed_difference" in file["boundary"].attrs:
+            number_of(file["boundary"], "largest_bracketed_difference", 0, inf)
+
+
+def bicycle_numbers(text: str) -> dict[str, Any]:
+    """The parameters in ``bicycle_parameters``; raises InputError unless they are those of a bicycle."""
+    key = ("bicycle_parameters",)
+    try:
+        numbers = json.loads(text)
+    except (ValueError, RecursionError):
+        raise InputError("is no JSON", key=key) from None
+    if not isinstance(numbers, dict):
+        raise InputError("is no JSON object", key=key)
+    _check_names(list(numbers), key[0])
+    for name, value in numbers.items():
+        if not isinstance(value, (int, float)) and not (value is None and name in ("lam", "sigma")):
+            raise InputError(f"{name} is no number", key=key)
+    try:
+        Bicycle(**numbers)
+    except InputError as error:
+        raise error.at(under=key) from None
+    return numbers
+
+
+def _check_identity(
+    file: h5py.File, texts: dict[str, str], swept: dict[str, Floats], grid: dict[str, Floats]
+) -> None:
+    """Raise InputError where ``config_sha256`` is not of what is in the file.
+
+    An earlier build's is a hash of the config's text. What is drawn at random stands in that text alone.
+    """
+    given, numbers = texts["config_sha256"], bicycle_numbers(texts["bicycle_parameters"])
+    if len(given) != 64 or set(given) - set(string.hexdigits.lower()):
+        raise InputError("the attribute 'config_sha256' is no SHA-256")
+    if "ensemble_samples" in file.attrs or given == hashlib.sha256(texts["config"].encode()).hexdigest():
+        return
+    with reading("machine" if swept else "bicycle_parameters"):
+        machines = file["machine"][()] if swept else np.array([list(numbers.values())], float)
+    fields = {FIELDS[name].asked for name in FIELDS if name in file}
+    rows = machines.reshape(-1, machines.shape[-1])
+    if given != identity(texts["model"], rows, [grid[name] for name in AXES], fields, swept, None):
+        problem = "the attribute 'config_sha256' is of another scan than the axes, parameters and fields are"
+        raise InputError(problem)
