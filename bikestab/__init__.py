@@ -8,6 +8,7 @@ __version__ = "0.1.0"
 TYPE_CHECKING = False  # type checkers take it for True; typing's own costs more than all of this
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
+    from bikestab.design.sensitivity import Sensitivity, sensitivity
     from bikestab.errors import BikestabError, InputError, ScanError
     from bikestab.pipeline import Scan, open_volume, scan
     from bikestab.speeds import KINDS, REASONS, Intervals
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 _HOME = {  # module → public names
     "bicycle": ("Bicycle",),
+    "design.sensitivity": ("Sensitivity", "sensitivity"),
     "errors": ("BikestabError", "InputError", "ScanError"),
     "pipeline": ("Scan", "open_volume", "scan"),
     "speeds": ("KINDS", "REASONS", "Intervals"),
@@ -31,12 +33,14 @@ __all__ = [
     "Intervals",
     "Scan",
     "ScanError",
+    "Sensitivity",
     "Volume",
     "eigenvalues",
     "growth_rate",
     "modes",
     "open_volume",
     "scan",
+    "sensitivity",
     "stable",
     "stable_intervals",
 ]

@@ -31,13 +31,16 @@ def letters_of(
     J1, M12 and M22 are the inertia matrix; Q, N and W are what a3, b1 and b2 have besides the wheels' spin
     and cos λ; T is b5 without c cos λ. S and U are sums that the refinement leaves no difference in.
     """
-    if model not in MODELS:
-        raise ValueError(f"model is {model!r}, not one of {MODELS}")
     trail: Any = np.asarray(sigma)
     if twofold:
-        p, (sin, cos), trail = _numbers(bicycle), sine_cosine(lam), Twofold(trail)
-    else:
-        p, (sin, cos) = _doubles(bicycle), plain_sine_cosine(lam)
+        return letters(_numbers(bicycle), *sine_cosine(lam), Twofold(trail), model)
+    return letters(_doubles(bicycle), *plain_sine_cosine(lam), trail, model)
+
+
+def letters(p: SimpleNamespace, sin: Any, cos: Any, trail: Any, model: Model) -> SimpleNamespace:
+    """``letters_of`` parameters, l2 − c as ``ahead``, sin λ, cos λ and σ that are numbers of any kind."""
+    if model not in MODELS:
+        raise ValueError(f"model is {model!r}, not one of {MODELS}")
     C1, C2 = p.C1 / p.R1, p.C2 / p.R2  # C1° and C2°: angular momentum per unit of speed
     mu = trail * cos  # c1/c
     e = p.m2 * p.ahead

@@ -85,7 +85,7 @@ def exact_table(
     table = np.zeros((3, 5, 4, *shape))
     for some, tilt, trail in parts:
         letters = letters_of(bicycle, tilt, trail, model)
-        entries = _entries(letters)
+        entries = entries_of(letters)
         poor = np.abs(entries[4, 0].value) < _POOR * entries[4, 0].size
         if np.any(poor):
             entries[4, 0] = _chosen(poor, determinant(letters), entries[4, 0])
@@ -107,7 +107,7 @@ def characteristic_table(
     table = np.zeros((5, 4, *shape))
     for some, tilt, trail in parts:
         letters = letters_of(bicycle, tilt, trail, model, twofold=False)
-        entries = _entries(letters)
+        entries = entries_of(letters)
         product = letters.c * letters.c * letters.J1 * letters.M22
         poor = entries[4, 0] < _POOR_DOUBLE * product
         if np.any(poor):
@@ -165,7 +165,7 @@ def coefficients(
     )  # (1.5)
 
 
-def _entries(n: SimpleNamespace) -> dict[tuple[int, int], Any]:
+def entries_of(n: SimpleNamespace) -> dict[tuple[int, int], Any]:
     """The entries (k, j) of the table, without terms that cancel identically.
 
     The wheels' spins do so in p3 and in the V term of p1; p0 is a product but for the refinement.

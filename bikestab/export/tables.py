@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +49,12 @@ MODES: Columns = {
 FRONT: Columns = {
     **_DESIGN, "V1": ("float64", "m/s"), "V2": ("float64", "m/s"), "lower": _TEXT, "upper": _TEXT,
     "width": ("float64", "m/s"), "growth_rate": ("float64", "1/s"), "V": ("float64", "m/s"), "at": _TEXT,
+}  # fmt: skip
+_NUMBER = ("float64", "")
+SENSITIVITY: Columns = {
+    "bicycle": _TEXT, "interval": ("int32", "1"), "parameter": _TEXT, "value": _NUMBER, "unit": _TEXT,
+    "dV1": _NUMBER, "dV2": _NUMBER, "elasticity_V1": ("float64", "1"), "elasticity_V2": ("float64", "1"),
+    "change": _NUMBER,
 }  # fmt: skip
 _LAYER = 64  # values of λ read at once: a layer of the volume's chunks
 _ROWS = 10_000  # turned into text at once
@@ -109,6 +115,23 @@ def front_blocks(front: Sequence[JudgedDesign]) -> Iterator[Block]:
         name: np.array([design[name] for design in front], float if kind == "float64" else object)  # type: ignore[literal-required]
         for name, (kind, _) in FRONT.items()
     }
+
+
+def sensitivity_blocks(records: Sequence[Mapping[str, Any]]) -> Iterator[Block]:
+    """The rows of SENSITIVITY from ``design.effects``: one per machine, interval and parameter."""
+    for record in records:
+        for number, interval in enumerate(record["intervals"], 1):
+            rows = interval["parameters"]
+            named = {"parameter": "name"}
+            columns = {
+                name: np.array(
+                    [row[named.get(name, name)] for row in rows], float if kind == "float64" else object
+                )
+                for name, (kind, _) in SENSITIVITY.items()
+                if name not in ("bicycle", "interval")
+            }
+            first = np.full(len(rows), record["bicycle"], object), np.full(len(rows), number, np.int32)
+            yield {"bicycle": first[0], "interval": first[1], **columns}
 
 
 def _designs(lam: Floats, sigma: Floats, c: float | Floats) -> Block:

@@ -115,6 +115,15 @@ ANGLE_ENDS, TRAIL_ENDS, SPEED_ENDS, LENGTH_ENDS = (QuantityEnds(*kind) for kind 
 
 def machine_options(function: F) -> F:
     """--bicycle, --model and --delta."""
+    return click.option(
+        "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", default=DEFAULT_BICYCLE,
+        show_default=True,
+        help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a file of one.",
+    )(equation_options(function))  # fmt: skip
+
+
+def equation_options(function: F) -> F:
+    """--model and --delta."""
     for option in (
         click.option(
             "--delta", type=Quantity("number", DAMPING),
@@ -123,11 +132,6 @@ def machine_options(function: F) -> F:
         click.option(
             "--model", type=click.Choice(["refined", "unrefined"]), default="refined", show_default=True,
             help="The paper's refined equations, or those before it.",
-        ),
-        click.option(
-            "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", default=DEFAULT_BICYCLE,
-            show_default=True,
-            help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a file of one.",
         ),
     ):  # fmt: skip
         function = option(function)

@@ -1,0 +1,93 @@
+"""bikestab sensitivity: which parameter moves the stable speeds, and by how much."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+from bikestab_cli.options import (
+    ANGLE_VALUE,
+    DEFAULT_BICYCLE,
+    FILE,
+    NAME,
+    TRAIL_VALUE,
+    check_files,
+    equation_options,
+    json_option,
+    load_bicycle,
+    told_as_options,
+)
+from bikestab_cli.output import print_json
+
+if TYPE_CHECKING:
+    from bikestab.design.sensitivity import Hold
+    from bikestab.model import Model
+
+
+@click.command("sensitivity")
+@click.option("--lam", type=ANGLE_VALUE, metavar="ANGLE", help="Tilt of the steering axis: 0.1 or 18deg.")
+@click.option("--sigma", type=TRAIL_VALUE, metavar="NUMBER", help="Trail divided by the wheelbase: 0.08.")
+@click.option(
+    "--hold", type=click.Choice(["trail", "offset", "sigma"]),
+    help="What stays where tilt, wheelbase or front radius vary.  [default: the trail of the 25 parameters, "
+    "σ in the paper's notation]",
+)  # fmt: skip
+@click.option(
+    "--bicycle", "bicycle_names", type=NAME, metavar="NAME|FILE", multiple=True,
+    help="A bicycle that comes with bikestab, or a file of one; several side by side."
+    f"  [default: {DEFAULT_BICYCLE}]",
+)  # fmt: skip
+@equation_options
+@click.option("--csv", "csv_file", type=FILE, metavar="FILE", help="Write all rows at full precision.")
+@json_option
+def command(
+    lam: float | None,
+    sigma: float | None,
+    hold: Hold | None,
+    bicycle_names: tuple[str, ...],
+    model: Model,
+    delta: float | None,
+    csv_file: str | None,
+    as_json: bool,
+) -> None:
+    """Print which parameter moves V1 and V2, and by how much.
+
+    The derivatives are exact: of the condition that is zero at the end of the stable interval, by forward
+    propagation through the equations. Rows are sorted by the larger elasticity, per cent of a speed for one
+    per cent of the parameter. Several --bicycle are put side by side by these, in the paper's notation where
+    theirs differ.
+
+    --hold says which frame is meant: with the trail held a steeper head angle needs another fork; with the
+    offset held the fork stays, and the trail follows tilt and front wheel; σ held is a trail that
+    grows with the wheelbase.
+
+    \b
+    Examples:
+      bikestab sensitivity --bicycle meijaard2007
+      bikestab sensitivity --bicycle meijaard2007 --hold offset --csv benchmark.csv
+      bikestab sensitivity --lam 0.2 --sigma 0.08 --json
+      bikestab sensitivity --bicycle meijaard2007 --bicycle sharp1971
+    """
+    from bikestab_cli.sensitivity_words import side_by_side, told
+
+    from bikestab.design.effects import sensitivity_record
+    from bikestab.design.sensitivity import sensitivity, two_parts
+    from bikestab.export.tables import SENSITIVITY, save_csv, sensitivity_blocks
+
+    bicycles = [load_bicycle(name, delta) for name in bicycle_names or (DEFAULT_BICYCLE,)]
+    check_files(csv_file)
+    if (
+        len({bicycle.bodies is None for bicycle in bicycles}) > 1
+    ):  # c is the trail in one, the wheelbase in the other
+        bicycles = [two_parts(bicycle) for bicycle in bicycles]
+    with told_as_options():
+        found = [sensitivity(bicycle, lam, sigma, hold=hold, model=model) for bicycle in bicycles]
+    records = [sensitivity_record(each) for each in found]
+    if csv_file:
+        save_csv(SENSITIVITY, sensitivity_blocks(records), csv_file)
+    if as_json:
+        print_json({"results": records, **({"csv": csv_file} if csv_file else {})})
+        return
+    click.echo(told(found[0], records[0]) if len(found) == 1 else side_by_side(found, records))
+    if csv_file:
+        click.echo(f"table: {csv_file}")

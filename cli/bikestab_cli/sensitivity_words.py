@@ -1,0 +1,155 @@
+"""Sensitivities in words and tables of 80 columns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from bikestab_cli.output import design_columns, heading, table
+
+if TYPE_CHECKING:
+    from bikestab.design.effects import Row, Tried
+    from bikestab.design.sensitivity import Sensitivity
+    from bikestab.records import Interval
+
+_FEW = 4  # machines that fit side by side
+_NAMES = 6  # listed as those that widen the interval most
+_HELD = {
+    "trail": "trail held: it stays where tilt, wheelbase and front wheel vary",
+    "offset": "offset held: the fork stays; the trail follows tilt and front wheel",
+    "sigma": "σ held: the trail grows with the wheelbase",
+}
+
+
+def told(found: Sensitivity, record: Mapping[str, Any]) -> str:
+    """One machine: what the design is, a table for each stable interval, and what it says in words."""
+    parts = [f"{heading(found.bicycle, found.model)}\n{_design(found)}\n{_HELD[found.hold]}"]
+    for interval in record["intervals"]:
+        rows = interval["parameters"]
+        parts.append(f"stable from {_ends(interval)}")
+        parts.append(_table([row for row in rows if row["notation"]], "parameter"))
+        parts.append(_table([row for row in rows if not row["notation"]], "front"))
+        parts.append(_words(rows))
+    if not record["intervals"]:
+        parts.append("no stable speed, and so no end of one to move; 'bikestab vrange' says what is nearest")
+    parts.append("computed anew, not by derivatives:\n" + _tried(record["tried"], record["intervals"]))
+    return "\n\n".join(part for part in parts if part)
+
+
+def _design(found: Sensitivity) -> str:
+    lam, head, sigma, trail = design_columns(found.lam, found.sigma, found.bicycle.c)
+    offset = found.values["offset"]
+    return f"λ = {lam} rad, σ = {sigma}: head angle {head}°, trail {trail} m, offset {offset:.4f} m"
+
+
+def _ends(interval: Interval) -> str:
+    above = "on, without an upper limit"
+    if interval["V2"] is not None:
+        above = f"to {interval['V2']:.6f} m/s ({interval['upper']})"
+    return f"{interval['V1']:.6f} m/s ({interval['lower']}) {above}"
+
+
+def _table(rows: Sequence[Row], first: str) -> str:
+    head = [first, "value", "unit", "dV1/dp", "%/%", "dV2/dp", "%/%", "V1 -0.1"]
+    cells = [
+        [
+            row["name"], f"{row['value']:.5g}", row["unit"],
+            _number(row["dV1"]), _share(row["elasticity_V1"]),
+            _number(row["dV2"]), _share(row["elasticity_V2"]), _number(row["change"], "+.3g"),
+        ]
+        for row in rows
+    ]  # fmt: skip
+    return table(head, cells)
+
+
+def _number(value: float | None, style: str = ".4g") -> str:
+    return "-" if value is None else f"{value:{style}}"
+
+
+def _share(value: float | None) -> str:
+    return "-" if value is None else f"{value:z.3f}"
+
+
+def _words(rows: Sequence[Row]) -> str:
+    """What the last column is, and which parameters widen the interval most."""
+    lines = [
+        "%/%: per cent of the speed for one per cent of the parameter",
+        "V1 -0.1: by how much it changes where V1 falls by 0.1 m/s, going on as it starts",
+    ]
+    unmoved = [row["name"] for row in rows if row["dV1"] == 0 and row["dV2"] in (0, None)]
+    if unmoved:
+        lines.append(f"these do not move the ends: {', '.join(unmoved)}")
+    gains = {row["name"]: gain for row in rows if row["notation"] and (gain := _gain(row))}
+    for way, word in ((1, "more"), (-1, "less")):
+        names = sorted((name for name in gains if way * gains[name] > 0), key=lambda name: -abs(gains[name]))
+        if names:
+            lines.append(f"wider with {word} of: {', '.join(names[:_NAMES])}")
+    return "\n".join(lines)
+
+
+def _gain(row: Row) -> float | None:
+    """How much wider the interval gets, in m/s for one per cent."""
+    if row["dV1"] is None or row["dV2"] is None:
+        return None
+    return 0.01 * abs(row["value"]) * (row["dV2"] - row["dV1"]) * math.copysign(1, row["value"])
+
+
+def _tried(results: Sequence[Tried], own: Sequence[Interval]) -> str:
+    rows = [["as it is", *_interval(_widest(own))]]
+    rows += [[each["what"], *_interval(each["interval"])] for each in results]
+    return table(["", "V1 [m/s]", "V2 [m/s]", "width [m/s]"], rows)
+
+
+def _widest(own: Sequence[Interval]) -> Interval | None:
+    return max(own, key=lambda i: math.inf if i["V2"] is None else i["V2"] - i["V1"], default=None)
+
+
+def _interval(interval: Interval | None) -> list[str]:
+    if interval is None:
+        return ["none", "", ""]
+    if interval["V2"] is None:
+        return [f"{interval['V1']:.3f}", "unbounded", ""]
+    return [f"{interval['V1']:.3f}", f"{interval['V2']:.3f}", f"{interval['V2'] - interval['V1']:.3f}"]
+
+
+def side_by_side(found: Sequence[Sensitivity], records: Sequence[Mapping[str, Any]]) -> str:
+    """The elasticities of several machines' widest intervals, what matters most to any of them first."""
+    parts = []
+    for start in range(0, len(found), _FEW):
+        heads = []
+        for i, each in enumerate(found[start : start + _FEW], start):
+            head = f"{chr(ord('A') + i)}: {heading(each.bicycle, each.model)}, {each.hold} held"
+            heads.append(f"{head}\n   {_summary(records[i])}")
+        parts += ["\n".join(heads), _elasticities(records[start : start + _FEW], start)]
+    parts.append("%/%: per cent of the speed for one per cent of the parameter")
+    return "\n\n".join(parts)
+
+
+def _summary(record: Mapping[str, Any]) -> str:
+    widest = _widest(record["intervals"])
+    return "no stable speed" if widest is None else f"stable from {_ends(widest)}"
+
+
+def _elasticities(records: Sequence[Mapping[str, Any]], start: int) -> str:
+    columns: list[dict[str, Row]] = []
+    for record in records:
+        widest: Any = _widest(record["intervals"])
+        columns.append({row["name"]: row for row in widest["parameters"]} if widest else {})
+    names = list(dict.fromkeys(name for column in columns for name in column))
+
+    def size(name: str) -> float:
+        rows = [column[name] for column in columns if name in column]
+        return max(abs(row[key] or 0.0) for row in rows for key in ("elasticity_V1", "elasticity_V2"))
+
+    head = ["%/%"]
+    for i in range(len(records)):
+        head += [f"{chr(65 + start + i)}: V1", "V2"]
+    rows = []
+    for name in sorted(names, key=size, reverse=True):
+        cells = [name]
+        for column in columns:
+            row = column.get(name)
+            cells += [_share(row["elasticity_V1"]), _share(row["elasticity_V2"])] if row else ["", ""]
+        rows.append(cells)
+    return table(head, rows)
