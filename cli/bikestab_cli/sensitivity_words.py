@@ -40,7 +40,7 @@ def told(found: Sensitivity, record: Mapping[str, Any]) -> str:
 def _design(found: Sensitivity) -> str:
     lam, head, sigma, trail = design_columns(found.lam, found.sigma, found.bicycle.c)
     offset = found.values["offset"]
-    return f"λ = {lam} rad, σ = {sigma}: head angle {head}°, trail {trail} m, offset {offset:.4f} m"
+    return f"λ = {lam} rad, σ = {sigma}\nhead angle {head}°, trail {trail} m, offset {offset:.4f} m"
 
 
 def _ends(interval: Interval) -> str:

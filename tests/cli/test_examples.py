@@ -86,8 +86,9 @@ def test_examples_of_a_page(run, path):
     run(from_markdown(path))
 
 
-def test_what_consoles_show_is_printed(run):
-    text = (ROOT / "README.md").read_text("utf-8")
+@pytest.mark.parametrize("page", ["README.md", "docs/sensitivity.md"])
+def test_what_consoles_show_is_printed(run, page):
+    text = (ROOT / page).read_text("utf-8")
     shown = re.findall(r"^```console\n\$ (.*)\n((?:.*\n)*?)^```", text, re.M)
     assert shown
     for line, expected in shown:
