@@ -47,7 +47,7 @@ class Sensitivity:
     >>> import bikestab as bs
     >>> frame = bs.sensitivity(bs.Bicycle.preset("meijaard2007"), hold="offset")
     >>> round(frame.values["offset"], 4), frame.units["offset"], frame.dV1["head_angle"].round(2)
-    (0.0321, 'm', array([-8.5]))
+    (0.0321, 'm', array([-8.49]))
     """
 
     bicycle: Bicycle
