@@ -25,6 +25,7 @@ _KINDS = {"no stable speed": "#ffffff", "bounded interval": "#bcd7ea", "no upper
 _TOP = 1.6 * SIGMA[1]  # of the picture, above the paper's box
 _INSET = DesignBox((0.0460, 0.0510), (0.1485, 0.1545))  # where two intervals are possible
 _INSET_AT = (0.77, 0.71, 0.21, 0.25)  # in the picture
+_DESIGNS = 301  # per axis: no step of their colours is wider than a curve's line
 _LEAST = 0.01  # of a side: a shorter curve is not seen
 
 
@@ -37,14 +38,14 @@ def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], sample
     figure = Figure(figsize=(8.2, 6.6), layout="constrained")
     ax = figure.add_subplot()
     around = DesignBox(LAM, (SIGMA[0], _TOP))
-    styles = _kinds(ax, bicycle, around, samples, box_curves(bicycle, samples))
+    styles = _kinds(ax, bicycle, around, box_curves(bicycle, samples))
     _box(ax)
     _no_offset(ax, bicycle)
     _numbered(ax, examples)
     label_axes(ax, "lam", "sigma", bicycle.c)
     inset = ax.inset_axes(_INSET_AT)
     inside = trace(Family(bicycle), _INSET.lam, _INSET.sigma, samples=samples)
-    styles |= _kinds(inset, bicycle, _INSET, samples, inside)
+    styles |= _kinds(inset, bicycle, _INSET, inside)
     inset.axhline(SIGMA[1], color="black", lw=1.6)
     inset.set_xticks([0.046, 0.048, 0.05])
     inset.set_yticks([0.15, 0.152, 0.154])
@@ -60,11 +61,9 @@ def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], sample
     return figure
 
 
-def _kinds(
-    ax: Axes, bicycle: Bicycle, box: DesignBox, samples: int, curves: list[Curve]
-) -> dict[str, tuple[str, Any]]:
+def _kinds(ax: Axes, bicycle: Bicycle, box: DesignBox, curves: list[Curve]) -> dict[str, tuple[str, Any]]:
     """The kinds in a box, and curves between them; what the curves look like."""
-    designs = map_designs(bicycle, samples, box)
+    designs = map_designs(bicycle, _DESIGNS, box)
     kind = np.where(designs.unbounded, 2, (designs.number > 0).astype(int))
     ax.pcolormesh(
         designs.lam[:, 0], designs.sigma, kind.T, cmap=ListedColormap(list(_KINDS.values())), vmin=0, vmax=2,
