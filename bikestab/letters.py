@@ -31,7 +31,7 @@ def letters_of(
     J1, M12 and M22 are the inertia matrix; Q, N and W are what a3, b1 and b2 have besides the wheels' spin
     and cos λ; T is b5 without c cos λ. S and U are sums that the refinement leaves no difference in.
     """
-    trail: Any = np.asarray(sigma)
+    trail: Any = sigma if isinstance(sigma, float) else np.asarray(sigma)
     if twofold:
         return letters(_numbers(bicycle), *sine_cosine(lam), Twofold(trail), model)
     return letters(_doubles(bicycle), *plain_sine_cosine(lam), trail, model)

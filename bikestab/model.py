@@ -86,7 +86,7 @@ def exact_table(
     for some, tilt, trail in parts:
         letters = letters_of(bicycle, tilt, trail, model)
         entries = entries_of(letters)
-        poor = np.abs(entries[4, 0].value) < _POOR * entries[4, 0].size
+        poor = abs(entries[4, 0].value) < _POOR * entries[4, 0].size
         if np.any(poor):
             entries[4, 0] = _chosen(poor, determinant(letters), entries[4, 0])
         for (k, j), entry in entries.items():
@@ -117,7 +117,7 @@ def characteristic_table(
     return table
 
 
-_Part = tuple[Any, Floats, Floats]
+_Part = tuple[Any, ArrayLike, ArrayLike]
 
 
 def _shape_and_parts(
@@ -126,7 +126,9 @@ def _shape_and_parts(
     """The table's trailing shape; parts of its first axis whose temporaries fit the cache, with λ and σ."""
     lam, sigma = np.asarray(lam, dtype=float), np.asarray(sigma, dtype=float)
     shape = np.broadcast_shapes(lam.shape, sigma.shape, bicycle.shape)
-    if bicycle.shape or not shape:
+    if not shape:
+        return shape, [(..., float(lam), float(sigma))]
+    if bicycle.shape:
         return shape, [(..., lam, sigma)]
     step = max(1, _CELLS * shape[0] // max(prod(shape), 1))
     slices = [slice(start, start + step) for start in range(0, shape[0], step)]

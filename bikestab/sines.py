@@ -18,13 +18,16 @@ def sine_cosine(angle: ArrayLike) -> tuple[Twofold, Twofold]:
     """Sin and cos of angles [rad], |angle| ≤ 1.6, right to 64 u² of their sizes.
 
     The angle is a multiple of 1/16, whose sine and cosine stand in a table, and a rest of at most 1/32, whose
-    series are short.
+    series are short. One angle as a float gives floats, which are ten times as fast as numpy's scalars.
     """
-    angle = np.asarray(angle, dtype=float)
-    number = np.rint(16 * angle)
+    number: Any = np.rint(16 * np.asarray(angle, dtype=float))
+    at: Any = np.abs(number).astype(int)
+    constants, tails, nodes = _constants()
+    values = nodes[:, :, at]
+    if isinstance(angle, float):
+        number, values = float(number), values.tolist()
     small = angle - number / 16  # exact
     y = Twofold(*two_product(small, small))
-    constants, tails, nodes = _constants()
     series = []
     for coefficients, tail in zip(constants, tails, strict=True):
         far: Any = tail[-1]
@@ -35,10 +38,8 @@ def sine_cosine(angle: ArrayLike) -> tuple[Twofold, Twofold]:
             near = near * y + b
         series.append(near)
     sine, cosine = series[0] * y * small + small, series[1] * y + 1.0
-    at = np.abs(number).astype(int)
-    sign = np.where(number < 0, -1.0, 1.0)
-    S, C = (Twofold(row[0][at], row[1][at]) for row in nodes)
-    S = S * sign
+    S, C = (Twofold(*pair) for pair in values)
+    S = S * (1.0 - 2.0 * (number < 0))
     return S * cosine + C * sine, C * cosine - S * sine
 
 

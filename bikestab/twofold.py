@@ -83,7 +83,7 @@ class Twofold:
 
     def __init__(self, value: Any, rest: Any = 0.0, size: Any = None) -> None:
         self.value, self.rest = value, rest
-        self.size = np.abs(value) if size is None else size
+        self.size = abs(value) if size is None else size
 
     def __add__(self, other: Any) -> Twofold:
         if not isinstance(other, Twofold):
@@ -96,7 +96,7 @@ class Twofold:
         if not isinstance(other, Twofold):
             p, r = two_product(self.value, other)
             r += self.rest * other
-            return Twofold(*_ordered(p, r), self.size * np.abs(other))
+            return Twofold(*_ordered(p, r), self.size * abs(other))
         p, r = two_product(self.value, other.value)
         cross = self.value * other.rest
         r += cross + self.rest * other.value
@@ -106,7 +106,7 @@ class Twofold:
         """Right to 32 u²; the size is that of the quotient of a number by one without cancellation."""
         first = self.value / other.value
         left = self - other * first
-        return Twofold(*_ordered(first, left.value / other.value), self.size / np.abs(other.value))
+        return Twofold(*_ordered(first, left.value / other.value), self.size / abs(other.value))
 
     def times(self, power: Any) -> Twofold:
         """The product with a power of two."""
