@@ -75,14 +75,12 @@ def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS) -> C
 def _critical_of(table: Cells, names: Sequence[str]) -> dict[str, Found]:
     """For each name the zeros (root, cell) of a table (5, 4, cell), and the sign before them."""
     number = table.value.shape[-1]
-    has = table.has()
-    others = has.copy()
-    for k, j in EVEN:
-        others[k, j] = False
-    uneven: NDArray[np.bool_] = np.asarray(others.any(axis=(0, 1)))
-    for k, j in ((3, 0), (1, 0)):
-        others[k, j] = False
-    odd: NDArray[np.bool_] = np.asarray(others.any(axis=(0, 1)))
+    damped, odd = np.zeros((2, number), bool)
+    for key in np.ndindex(5, 4):
+        if key not in EVEN:
+            into = damped if key in DAMPED else odd
+            into |= table.has(key)
+    uneven = damped | odd
     groups = ((_even, EVEN, ~uneven), (_damped, DAMPED, uneven & ~odd), (_any, _ALL, odd))
     found: dict[str, list[tuple[NDArray[np.bool_], Zeros, Floats]]] = {name: [] for name in names}
     for solve, keys, chosen in groups:

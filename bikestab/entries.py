@@ -42,7 +42,7 @@ class Entries:
     def double(self, k: int, j: int) -> Double:
         """One of them in double precision."""
         a = self.numbers[k, j]
-        return Double(a.value, np.abs(a.value) + a.size * (ENTRY / CLOSE))
+        return Double(a.value, np.abs(a.value) + a.size * (ENTRY / CLOSE) if np.ndim(a.rest) else a.size)
 
     def pair(self, k: int, j: int) -> Pair:
         """One of them in twice double precision."""
@@ -66,9 +66,9 @@ class Cells(NamedTuple):
         others = (None if each is None else change(each) for each in self[1:])
         return Cells(change(self.value), *others)
 
-    def has(self) -> NDArray[np.bool_]:
-        """Which entries there are in each cell: all but those that are zero whatever the numbers are."""
-        return self.value != 0 if self.error is None else self.error > 0
+    def has(self, key: tuple[int, int]) -> NDArray[np.bool_]:
+        """Which cells have an entry: all but those where it is zero whatever the numbers are."""
+        return self.value[key] != 0 if self.error is None else self.error[key] > 0
 
     def entry(self, key: tuple[int, int], unit: Floats | None) -> Twofold:
         """One of them, in a unit that is a power of two."""
@@ -102,4 +102,6 @@ def scaled(table: Cells, keys: Sequence[tuple[int, int]], closed: bool) -> tuple
 def _moderate(a: Floats) -> bool:
     """Whether products of three or four of these numbers are in range."""
     size = np.abs(a)
-    return bool(np.all((size < _LARGE) & ((size > 1 / _LARGE) | (size == 0))))
+    if size.max(initial=0) >= _LARGE:
+        return False
+    return bool(size.min(initial=1) > 1 / _LARGE or np.all((size > 1 / _LARGE) | (size == 0)))

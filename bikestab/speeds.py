@@ -195,7 +195,7 @@ def _others_positive(
     There p1 (p2 p3 − p4 p1) > p0 p3² ≥ 0, so that with p3, p4 > 0 p1 and p2 have one sign: where one of
     them is near zero the other one tells.
     """
-    has = np.any(table.has(), axis=-1)
+    has = np.any(table.value if table.error is None else table.error, axis=-1)
     sums = []
     for k in range(1, 5):
         p, bound = np.zeros(len(V)), np.zeros(len(V))
