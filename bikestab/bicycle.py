@@ -14,9 +14,10 @@ from typing import Any, ClassVar
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.limits import check_product, check_tilt, check_trail, check_value, part_warnings
+from bikestab.limits import check_product, check_tilt, check_trail, check_value, part_warnings, require
 from bikestab.notation import MEIJAARD, OPTIONAL, two_parts
 from bikestab.presets import preset_names, preset_text
+from bikestab.rider import RIDER, flattened, left_behind
 from bikestab.texts import is_file
 from bikestab.units import quantity, shown, units_in
 
@@ -112,7 +113,9 @@ class Bicycle:
     @property
     def notation(self) -> dict[str, str]:
         """The parameters of the notation the bicycle was given in, with meaning and unit of each."""
-        return PAPER if self.bodies is None else MEIJAARD
+        if self.bodies is None:
+            return PAPER
+        return {**MEIJAARD, **RIDER} if "rider.m" in self.bodies else MEIJAARD
 
     @property
     def given(self) -> dict[str, float]:
@@ -127,7 +130,9 @@ class Bicycle:
         bicycle = Bicycle.from_mapping({**kept, **values, "source": self.source}, name=self.name)
         deviations = {k: sd for k, sd in self.deviations.items() if k not in values}
         correlations = {pair: r for pair, r in self.correlations.items() if not {*pair} & {*values}}
-        return bicycle.measured(deviations, correlations, self.notes)
+        note = left_behind(self.given, values)
+        notes = (*self.notes, note) if note and note not in self.notes else self.notes
+        return bicycle.measured(deviations, correlations, notes)
 
     def measured(
         self, deviations: Mapping[str, float], correlations: Mapping[tuple[str, str], float],
@@ -148,27 +153,29 @@ class Bicycle:
         """A bicycle from keys in the paper's notation or the 25 parameters of Meijaard et al. (2007).
 
         The two are told apart by their keys: only the latter has ``w``. ``R`` stands for equal
-        ``R1`` and ``R2``; ``trail`` [m] may stand for ``sigma``. InputError names the key.
+        ``R1`` and ``R2``; ``trail`` [m] may stand for ``sigma``. ``rider``, a mapping, is one body more than
+        the 25's. InputError names the key.
         """
-        values = dict(values)
+        values = flattened(values)
         texts: dict[str, str] = {"name": name, "source": ""}
         for key in texts:
             if (text := values.pop(key, None)) is not None:
                 if not isinstance(text, str):
                     raise InputError(f"{shown(text)} is not text", key=(key,))
                 texts[key] = str(text)  # YAML readers give subclasses
-        notation = MEIJAARD if _is_meijaard(values) else PAPER
+        notation = {**MEIJAARD, **RIDER} if _is_meijaard(values) else PAPER
         for key in values:
             if key not in notation:
-                other = " (a key of the other notation)" if key in {**MEIJAARD, **PAPER} else ""
+                other = " (a key of the other notation)" if key in {**MEIJAARD, **RIDER, **PAPER} else ""
                 raise InputError(
                     f"unknown parameter{other}",
                     key=(str(key),),
                     hint=nearest(str(key), [*notation, "name", "source"]),
                 )
         numbers = {k: quantity(value, units_in(notation[k]), key=(k,)) for k, value in values.items()}
-        if notation is MEIJAARD:
-            _require(numbers, [key for key in MEIJAARD if key not in OPTIONAL])
+        if notation is not PAPER:
+            known = notation if any(key in RIDER for key in numbers) else MEIJAARD
+            require(numbers, [key for key in known if key not in OPTIONAL], known)
             bicycle = cls(**two_parts(numbers), name=texts["name"], source=texts["source"])
             object.__setattr__(bicycle, "bodies", numbers)
             return bicycle
@@ -235,17 +242,7 @@ def _from_paper(n: dict[str, float], texts: dict[str, str]) -> Bicycle:
             raise InputError("trail and sigma are both given", key=("trail",), hint="give one of them")
         trail = n.pop("trail")
         n["sigma"] = trail / n["c"] if n.get("c", 0) > 0 else 0.0
-    required = [p.name for p in parameters() if p.name not in _OPTIONAL]
-    _require(n, required, "R" if "R1" not in n and "R2" not in n else "")
+    radii = ("R1", "R2") if "R1" in n or "R2" in n else ("R",)
+    others = [p.name for p in parameters() if p.name not in (*_OPTIONAL, "R1", "R2")]
+    require(n, (*others, *radii), PAPER)
     return Bicycle(**n, **texts)  # type: ignore[arg-type]  # the keys were checked against PAPER
-
-
-def _require(given: Mapping[str, float], required: list[str], instead_of_radii: str = "") -> None:
-    missing = [key for key in required if key not in given]
-    if instead_of_radii:
-        missing = [key for key in missing if key not in ("R1", "R2")] + [instead_of_radii]
-    if missing:
-        raise InputError(
-            f"missing parameter{'s' if len(missing) > 1 else ''}: {', '.join(missing)}",
-            hint=f"{missing[0]}: {({**MEIJAARD, **PAPER} if missing[0] in PAPER else MEIJAARD)[missing[0]]}",
-        )

@@ -13,7 +13,6 @@ from bikestab.errors import InputError, nearest
 from bikestab.limits import check_tilt, check_trail
 from bikestab.machines import Machines
 from bikestab.model import Floats, Model, characteristic_table, exact_table
-from bikestab.notation import MEIJAARD
 
 _TILT = {"lam": "steering-axis tilt [rad]", "head_angle": "head angle, 90° − tilt [rad]"}
 _TRAIL = {"sigma": "trail divided by the wheelbase [1]", "trail": "trail along the ground [m]"}
@@ -153,6 +152,6 @@ class Family:
         """The parameters of the equations that a name alone fixes."""
         if name in _TILT:
             return {"lam"}
-        if name in _TRAIL or (name == "c" and self.bicycle.notation is MEIJAARD):
+        if name in _TRAIL or (name == "c" and self.bicycle.bodies is not None):
             return {"sigma"}
         return {"R1", "R2"} if name == "R" else {name}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from bikestab.errors import InputError
@@ -98,6 +99,16 @@ def allowed(value: Any, check: str) -> Any:
     """Whether a parameter is of the sign wanted and within MOST; of floats or arrays."""
     within = abs(value) <= MOST
     return within & (value > 0) if check == "positive" else within & ((value >= 0) | (check == ""))
+
+
+def require(given: Mapping[str, float], required: Sequence[str], meanings: Mapping[str, str]) -> None:
+    """Raise InputError unless every required parameter is given; it says what the first missing one means."""
+    missing = [key for key in required if key not in given]
+    if missing:
+        raise InputError(
+            f"missing parameter{'s' if len(missing) > 1 else ''}: {', '.join(missing)}",
+            hint=f"{missing[0]}: {meanings[missing[0]]}",
+        )
 
 
 def check_value(key: str, value: float, check: str, meaning: str) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle, parameters
 from bikestab.errors import InputError
 from bikestab.limits import MOST_TRAIL, allowed, doubts, exceeds
-from bikestab.notation import CHECKS, MEIJAARD, PARTS, reduced
+from bikestab.notation import CHECKS, INERTIAS, PARTS, reduced
 
 _Floats = NDArray[np.float64]
 
@@ -97,12 +97,13 @@ class Machines:
         They are those of its notation, or of the two parts that it is reduced to.
         """
         numbers: dict[str, Any] = {**bicycle.given, **columns}
-        parts = {name: values for name, values in columns.items() if name not in MEIJAARD}
+        ours = {} if bicycle.bodies is None else bicycle.notation
+        parts = {name: values for name, values in columns.items() if name not in ours}
         if "R" in parts:
             parts["R1"] = parts["R2"] = parts.pop("R")
         bodies = None
         if bicycle.bodies is not None:
-            bodies = {name: values for name, values in numbers.items() if name in MEIJAARD}
+            bodies = {name: values for name, values in numbers.items() if name not in parts}
             numbers = reduced(bodies)
         numbers = {"delta": 0.0, **numbers, **parts}
         return cls(
@@ -157,11 +158,11 @@ def _bodies_exist(n: Mapping[str, Any]) -> Any:
     good = True
     for key, check in CHECKS.items():
         good = good & allowed(n.get(key, 1.0), check)
-    for body in "BH":
-        xx, zz, xz = (n[f"I{body}{axes}"] for axes in ("xx", "zz", "xz"))
+    for inertia in INERTIAS:
+        xx, zz, xz = (n.get(inertia + axes, 0.0) for axes in ("xx", "zz", "xz"))
         good = good & np.logical_not(exceeds(abs(xz), np.sqrt(xx * zz)))
     for _, bodies in PARTS:
-        good = good & (sum(n[m] for m in bodies) > 0)
+        good = good & (sum(n.get(m, 0.0) for m in bodies) > 0)
     return good & (abs(n["c"] / n["w"]) <= MOST_TRAIL)
 
 

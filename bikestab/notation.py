@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import operator
+from collections.abc import Iterable, Mapping
+from functools import reduce
 from typing import Any
 
 from bikestab.errors import InputError
 from bikestab.limits import check_product, check_tilt, check_value, exceeds
+from bikestab.rider import CHECKS as RIDER_CHECKS
+from bikestab.rider import OPTIONAL as RIDER_OPTIONAL
+from bikestab.rider import RIDER, rider_body
 
 # Meijaard, Papadopoulos, Ruina and Schwab (2007), table 1; x forward, z down, origin at the rear contact.
 MEIJAARD: dict[str, str] = {
@@ -39,11 +44,13 @@ MEIJAARD: dict[str, str] = {
     "IFxx": "front wheel inertia about a diameter [kg m²]",
     "IFyy": "front wheel spin inertia [kg m²]",
 }
-OPTIONAL = {"g", "delta", "IByy", "IHyy"}
+OPTIONAL = {"g", "delta", "IByy", "IHyy", *RIDER_OPTIONAL}
 CHECKS = {"w": "positive", "g": "positive"} | {
     key: "non-negative" for key in MEIJAARD if key[0] in "mr" or (key[0] == "I" and not key.endswith("xz"))
 }
-PARTS = (("rear", ("mR", "mB")), ("front", ("mH", "mF")))
+CHECKS |= RIDER_CHECKS
+PARTS = (("rear", ("mR", "mB", "rider.m")), ("front", ("mH", "mF")))
+INERTIAS = ("IB", "IH", "rider.I")  # of bodies that have a product of inertia
 
 
 def two_parts(n: Mapping[str, float]) -> dict[str, Any]:
@@ -53,28 +60,30 @@ def two_parts(n: Mapping[str, float]) -> dict[str, Any]:
     """
     for key, value in n.items():
         if key in CHECKS:
-            check_value(key, value, CHECKS[key], MEIJAARD[key])
+            check_value(key, value, CHECKS[key], MEIJAARD[key] if key in MEIJAARD else RIDER[key])
     check_tilt(n["lam"], ("lam",))
-    for body in ("B", "H"):
-        xz, xx, zz = (f"I{body}{axes}" for axes in ("xz", "xx", "zz"))
-        check_product(xz, n[xz], xx, n[xx], zz, n[zz])
+    for inertia in INERTIAS:
+        xz, xx, zz = (f"{inertia}{axes}" for axes in ("xz", "xx", "zz"))
+        if xz in n:
+            check_product(xz, n[xz], xx, n[xx], zz, n[zz])
     for part, bodies in PARTS:
-        if sum(n[m] for m in bodies) == 0:
-            raise InputError(
-                f"the {part} part has no mass", key=(bodies[1],), hint=f"allowed: {' + '.join(bodies)} > 0"
-            )
+        masses = [m for m in bodies if m in n]
+        if sum(n[m] for m in masses) == 0:
+            hint = f"allowed: {' + '.join(masses)} > 0"
+            raise InputError(f"the {part} part has no mass", key=(bodies[1],), hint=hint)
     return {**reduced(n), "lam": n["lam"], "sigma": n["c"] / n["w"], "remarks": tuple(_body_remarks(n))}
 
 
 def reduced(n: Mapping[str, Any]) -> dict[str, Any]:
-    """The numbers of the two parts from those of the four bodies, by the parallel-axis theorem.
+    """The numbers of the two parts from those of the bodies, by the parallel-axis theorem.
 
     Floats, or arrays that broadcast together.
     """
-    # part 1 = rear wheel + body, part 2 = fork + front wheel: (mass, forward, up, Ixx, Izz, Ixz)
+    # part 1 = rear wheel + body (+ rider), part 2 = fork + front wheel: (mass, forward, up, Ixx, Izz, Ixz)
     m1, l1, h1, A1, B1, xz1 = _join(
         (n["mR"], 0.0, n["rR"], n["IRxx"], n["IRxx"], 0.0),
         (n["mB"], n["xB"], -n["zB"], n["IBxx"], n["IBzz"], n["IBxz"]),
+        *([rider_body(n)] if "rider.m" in n else []),
     )
     m2, l2, h2, A2, B2, xz2 = _join(
         (n["mH"], n["xH"], -n["zH"], n["IHxx"], n["IHzz"], n["IHxz"]),
@@ -87,19 +96,22 @@ def reduced(n: Mapping[str, Any]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-_Body = tuple[float, float, float, float, float, float]
-
-
-def _join(a: _Body, b: _Body) -> _Body:
-    """Two bodies as one: mass, centre of mass (forward, up) and central Ixx, Izz, Ixz (z down)."""
-    m = a[0] + b[0]
-    x, h = ((a[0] * a[i] + b[0] * b[i]) / m for i in (1, 2))
-    xx, zz, xz = a[3] + b[3], a[4] + b[4], a[5] + b[5]
-    for mass, dx, dh in ((a[0], a[1] - x, a[2] - h), (b[0], b[1] - x, b[2] - h)):
+def _join(*bodies: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Bodies as one: mass, centre of mass (forward, up) and central Ixx, Izz, Ixz (z down)."""
+    m = _total(body[0] for body in bodies)
+    x, h = (_total(body[0] * body[i] for body in bodies) / m for i in (1, 2))
+    xx, zz, xz = (_total(body[i] for body in bodies) for i in (3, 4, 5))
+    for mass, ahead, up, *_ in bodies:
+        dx, dh = ahead - x, up - h
         xx += mass * dh * dh
         zz += mass * dx * dx
         xz += mass * dx * dh  # −∫ x z dm with z = −h
     return m, x, h, xx, zz, xz
+
+
+def _total(terms: Iterable[Any]) -> Any:
+    """Their sum from the left, of anything that can be added."""
+    return reduce(operator.add, terms)
 
 
 def _body_remarks(n: Mapping[str, float]) -> list[str]:
@@ -108,16 +120,15 @@ def _body_remarks(n: Mapping[str, float]) -> list[str]:
         xx, yy = n[f"I{wheel}xx"], n[f"I{wheel}yy"]
         if exceeds(yy, 2 * xx):
             remarks.append(f"no rigid {part} wheel has I{wheel}yy > 2 I{wheel}xx: {yy:g} > {2 * xx:g} kg m²")
-    for body, label in (("B", "body"), ("H", "fork")):
-        xx, zz, xz = n[f"I{body}xx"], n[f"I{body}zz"], n[f"I{body}xz"]
-        if f"I{body}yy" not in n:
+    for inertia, label in zip(INERTIAS, ("body", "fork", "rider"), strict=True):
+        if f"{inertia}yy" not in n:
             continue
-        yy = n[f"I{body}yy"]
+        xx, yy, zz, xz = (n[inertia + axes] for axes in ("xx", "yy", "zz", "xz"))
         spread = math.hypot(xx - zz, 2 * xz)  # difference of the two principal moments in the plane
         if exceeds(yy, xx + zz) or exceeds(spread, yy):
             remarks.append(
-                f"no rigid {label} has I{body}yy = {yy:g} with I{body}xx = {xx:g}, "
-                f"I{body}zz = {zz:g}, I{body}xz = {xz:g} kg m²: "
+                f"no rigid {label} has {inertia}yy = {yy:g} with {inertia}xx = {xx:g}, "
+                f"{inertia}zz = {zz:g}, {inertia}xz = {xz:g} kg m²: "
                 f"allowed {spread:.6g} ... {xx + zz:.6g}"
             )
     return remarks

@@ -133,10 +133,12 @@ def flow(value: Any) -> str:
 
 def _way(node: Node, key: KeyPath) -> list[Node]:
     """The nodes at ``key``, from the first one in the document to the last that is there."""
-    nodes = []
-    for part in key:
+    nodes: list[Node] = []
+    for i, part in enumerate(key):
         try:
             if isinstance(node.children, dict):
+                if str(part) not in node.children and "." in str(part):  # rider.m may stand under rider
+                    return nodes + _way(node, [*str(part).split("."), *key[i + 1 :]])
                 node = node.children[str(part)]
             elif node.children and isinstance(part, int):
                 node = node.children[part]

@@ -15,6 +15,7 @@ from bikestab.config.scanconfig import Expectation, Plane, ScanConfig
 from bikestab.config.variation import Distribution, Ensemble
 from bikestab.errors import InputError, dotted, nearest
 from bikestab.fields import AXES
+from bikestab.rider import flattened
 from bikestab.units import shown
 
 
@@ -35,6 +36,9 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
         places[key] = f"--set {override}"
     try:
         data = _plain(document.data)
+        for name in ("sweep", "ensemble"):
+            if isinstance(data.get(name), dict) and isinstance(data[name].get("rider"), dict):
+                data[name] = flattened(data[name])  # as --set sweep.rider.m=... builds it
         data.setdefault("output", f"out/{Path(document.file).stem}")
         if "bicycle" in data:
             typed = ("bicycle",) in places  # in a command, where paths start from the current folder
@@ -45,7 +49,7 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
             raise _translated(error) from None
     except InputError as error:
         for key, place in places.items():
-            if error.key[: len(key)] == key:
+            if (*".".join(map(str, error.key)).split("."),)[: len(key)] == (*map(str, key),):
                 raise error.at(place) from None
         raise document.located(error) from None
 

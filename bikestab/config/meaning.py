@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from bikestab.bicycle import Bicycle
+from bikestab.rider import nested
 from bikestab.yamltext import dumped
 
-OUT_OF_EQUATIONS = {"IByy", "IHyy"}
+OUT_OF_EQUATIONS = {"IByy", "IHyy", "rider.Iyy"}
 
 
 def drawn_around(bicycle: Bicycle) -> dict[str, Any]:
@@ -23,7 +24,7 @@ def drawn_around(bicycle: Bicycle) -> dict[str, Any]:
 def yaml_text(bicycle: Bicycle, values: Mapping[str, Any]) -> str:
     """A YAML text of a bicycle's parameters in place and of a config's other ``values``, to the last bit."""
     texts = {"name": bicycle.name, "source": bicycle.source}
-    parameters = {**{key: text for key, text in texts.items() if text}, **bicycle.given}
+    parameters = {**{key: text for key, text in texts.items() if text}, **nested(bicycle.given)}
     return dumped({"bicycle": parameters, **{key: _spelt(value) for key, value in values.items()}})
 
 

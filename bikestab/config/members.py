@@ -13,7 +13,6 @@ from bikestab.config.values import NumberAxis
 from bikestab.config.variation import BOTH, Ensemble
 from bikestab.errors import InputError, nearest
 from bikestab.model import Floats
-from bikestab.notation import MEIJAARD
 
 MOST_MEMBERS = 10_000  # of a sweep
 MOST_MACHINES = 100_000_000  # of all ensembles of a sweep
@@ -51,7 +50,7 @@ def check_names(
     names = [("sweep", name) for name in sweep]
     names += [("ensemble", name) for name in (ensemble.parameters if ensemble else ())]
     on_grid = {"lam": "tilt", "sigma": "trail", "trail": "trail"}
-    on_grid |= {"c": "trail"} if bicycle.notation is MEIJAARD else {}
+    on_grid |= {"c": "trail"} if bicycle.bodies is not None else {}
     known = [name for name in bicycle.notation if name not in on_grid]
     seen: dict[str, str] = {}
     for key in names:

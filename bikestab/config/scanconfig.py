@@ -9,7 +9,8 @@ from typing import Annotated, Any, Literal, TypeAlias
 import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
 
-from bikestab.bicycle import PAPER, Bicycle
+from bikestab.bicycle import Bicycle
+from bikestab.config.inplace import IN_PLACE
 from bikestab.config.meaning import drawn_around, yaml_text
 from bikestab.config.members import (
     Member,
@@ -33,7 +34,6 @@ from bikestab.config.values import (
     TrailAxis,
     UpperSpeed,
     Within,
-    json_schema,
     mistake,
 )
 from bikestab.config.variation import SWEPT, Ensemble, with_units
@@ -41,9 +41,9 @@ from bikestab.errors import InputError, nearest
 from bikestab.fields import AXES, Axis, askable
 from bikestab.identity import identity
 from bikestab.model import Floats, Model
-from bikestab.notation import MEIJAARD
 from bikestab.presets import preset_names
-from bikestab.units import shown, units_in
+from bikestab.rider import left_behind
+from bikestab.units import shown
 
 
 def _field(value: object) -> str:
@@ -123,17 +123,6 @@ def _bicycle(value: object) -> Bicycle:
     raise mistake(f"{shown(value)} is no bicycle", "allowed: a preset, a path to a YAML file, or parameters")
 
 
-_PARAMETERS = {
-    "type": "object",
-    "properties": {
-        key: {"description": text, **json_schema(units_in(text))}
-        for key, text in {**PAPER, **MEIJAARD}.items()
-    }
-    | {"name": {"type": "string"}, "source": {"type": "string"}},
-    "additionalProperties": False,
-}
-
-
 class ScanConfig(Strict):
     """What ``bikestab scan`` computes and where it puts the result."""
 
@@ -143,7 +132,7 @@ class ScanConfig(Strict):
     bicycle: Annotated[
         Bicycle,
         BeforeValidator(_bicycle),
-        WithJsonSchema({"anyOf": [{"type": "string", "examples": preset_names()}, _PARAMETERS]}),
+        WithJsonSchema({"anyOf": [{"type": "string", "examples": preset_names()}, IN_PLACE]}),
         Field(description="a preset, a path to a file from this file's folder, or the parameters in place"),
     ]
     model: Annotated[Model, Field(description="refined, or unrefined as before the 1981 paper")] = "refined"
@@ -208,6 +197,13 @@ class ScanConfig(Strict):
         if not self.sweep and not self.ensemble:
             return list(self.machine.warnings)
         return doubts_of(self.members, self.ensemble)
+
+    @cached_property
+    def notes(self) -> list[str]:
+        """What was left out of the bicycle's file, and what is not scaled with a rider's mass."""
+        drawn = self.ensemble.parameters if self.ensemble else {}
+        note = left_behind(self.bicycle.given, {**self.sweep, **drawn})
+        return [*self.bicycle.notes, *([note] if note else [])]
 
     @property
     def text(self) -> str:

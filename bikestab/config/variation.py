@@ -14,10 +14,11 @@ from bikestab.errors import nearest
 from bikestab.machines import Machines, standard_normal, uniforms
 from bikestab.model import Floats
 from bikestab.notation import MEIJAARD
+from bikestab.rider import RIDER
 from bikestab.units import shown
 
 MOST_SAMPLES = 1_000_000  # of an ensemble
-BOTH = {**PAPER, **MEIJAARD}
+BOTH = {**PAPER, **MEIJAARD, **RIDER}
 SWEPT = [name for name in BOTH if name not in ("lam", "sigma", "trail")]  # known in either notation
 
 

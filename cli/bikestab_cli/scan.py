@@ -66,8 +66,9 @@ def command(
     done: list[dict[str, object]] = []
     try:
         for name, config in loaded:
-            for text in config.warnings:
-                click.echo(f"warning: {config.machine.name}: {text}", err=True)
+            for word, texts in (("note", config.notes), ("warning", config.warnings)):
+                for text in texts:
+                    click.echo(f"{word}: {config.machine.name}: {text}", err=True)
             start = time.perf_counter()
             with of_file(name):
                 result, pictures = _run(name, config, force, jobs, scheduler or "", quiet)
