@@ -78,6 +78,14 @@ class Machines:
 
         Raises InputError where some are no machine; it names the parameter, how many they are, and the first.
         """
+        machines, good = cls.tried(bicycle, samples)
+        if not good.all():
+            raise _refusal(bicycle, samples, np.flatnonzero(~good))
+        return machines
+
+    @classmethod
+    def tried(cls, bicycle: Bicycle, samples: Mapping[str, _Floats]) -> tuple[Machines, NDArray[np.bool_]]:
+        """As ``drawn``, with those that are no machine among them, and which (sample,) are one."""
         columns: dict[str, Any] = {name: values[:, np.newaxis] for name, values in samples.items()}
         shape = next(iter(columns.values())).shape
         good = np.ones(shape, dtype=bool)
@@ -86,9 +94,7 @@ class Machines:
                 good &= _bodies_exist({**bicycle.bodies, **columns})
             machines = cls.varied(bicycle, columns, shape)
             good &= _machine_exists(vars(machines))
-        if not good.all():
-            raise _refusal(bicycle, samples, np.flatnonzero(~good))
-        return machines
+        return machines, good[:, 0]
 
     @classmethod
     def varied(cls, bicycle: Bicycle, columns: Mapping[str, _Floats], shape: tuple[int, ...]) -> Machines:

@@ -151,6 +151,19 @@ def _machine(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) 
     return values
 
 
+def _deviations(
+    context: click.Context, option: click.Parameter, texts: tuple[str, ...]
+) -> tuple[bool, dict[str, float]]:
+    """Whether those of the bicycle's file are asked for, and others by their parameters' names."""
+    given = _machine(context, option, tuple(text for text in texts if text != "file"))
+    for name, value in given.items():
+        if value <= 0:
+            raise click.BadParameter(
+                f"{name}={value:g} is no standard deviation; allowed: above 0", param=option
+            )
+    return "file" in texts, given
+
+
 def _units_of(parameter: str) -> Units:
     from bikestab.bicycle import PAPER
     from bikestab.notation import MEIJAARD
@@ -161,6 +174,11 @@ def _units_of(parameter: str) -> Units:
 at_option = click.option(
     "--at", "machine", multiple=True, metavar="NAME=VALUE", callback=_machine,
     help="Which machine of a sweep, e.g. --at delta=1; once for each of its axes.",
+)  # fmt: skip
+
+sd_option = click.option(
+    "--sd", "deviations", multiple=True, metavar="NAME=VALUE|file", callback=_deviations,
+    help="A parameter's standard deviation, e.g. --sd mB=1.5 --sd lam=0.5deg; file: all that the file gives.",
 )  # fmt: skip
 
 tilt_option = click.option(

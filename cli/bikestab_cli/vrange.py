@@ -6,13 +6,24 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import click
-from bikestab_cli.options import ANGLES, TRAILS, json_option, load_bicycle, machine_options, told_as_options
+from bikestab_cli.options import (
+    ANGLES,
+    TRAILS,
+    json_option,
+    load_bicycle,
+    machine_options,
+    sd_option,
+    told_as_options,
+)
 from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, print_json, table
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
+    from bikestab.design.spread import Spread
     from bikestab.model import Model
     from bikestab.region.answers import Answer
+
+MOST_SPREADS = 100  # designs at once
 
 
 @click.command("vrange")
@@ -23,6 +34,7 @@ if TYPE_CHECKING:
     "--sigma", type=TRAILS, metavar="NUMBER|RANGE", help="Trail divided by the wheelbase: 0.08 or 0:0.15:16."
 )
 @machine_options
+@sd_option
 @json_option
 def command(
     lam: list[float] | None,
@@ -30,6 +42,7 @@ def command(
     bicycle_name: str,
     model: Model,
     delta: float | None,
+    deviations: tuple[bool, dict[str, float]],
     as_json: bool,
 ) -> None:
     """Print the stable speeds V1 < V < V2.
@@ -42,6 +55,9 @@ def command(
     value for exactly these inputs lies, and says where rounding leaves open how many intervals there are or
     how one ends: "marginal", with the "reason".
 
+    --sd tells what standard deviations of parameters leave of that: in how many of 20 000 machines drawn at
+    random there is a stable speed, and where nine tenths of the ends lie ('bikestab sensitivity' says more).
+
     Where there is no stable speed the answer says what would help: the nearest larger and smaller σ and the
     nearest λ that give one (searched over −0.2 ≤ λ ≤ 0.6 rad and −0.5 ≤ σ ≤ 0.5), and the speed up to
     50 m/s at which the motion is least unstable.
@@ -53,24 +69,62 @@ def command(
       bikestab vrange --bicycle meijaard2007
       bikestab vrange --bicycle meijaard2007 --lam 20deg --json
       bikestab vrange --lam 0.1 --sigma 0.08 --delta 1
+      bikestab vrange --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
     """
+    from bikestab_cli.spread_words import in_one_line
+
     from bikestab.region.answers import stable_speeds
 
     bicycle = load_bicycle(bicycle_name, delta)
     single = all(values is None or len(values) == 1 for values in (lam, sigma))
     with told_as_options():  # a table has no room for what is nearest
         answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=as_json or single)
+    spreads = _spreads(answers, bicycle, model, *deviations)
     if as_json:
+        from bikestab.design.spread import plain
+
+        records = [
+            {**answer, "spread": plain(known)} for answer, known in zip(answers, spreads, strict=False)
+        ]
+        answers = records or answers  # type: ignore[assignment]  # for JSON alone
         print_json({"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "results": answers})
         return
     click.echo(heading(bicycle, model) + "\n")
     click.echo(table([*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], _rows(answers, bicycle.c)))
     for answer in answers:
         if answer["marginal"]:
-            design = f"λ = {answer['lam']:.6g}, σ = {answer['sigma']:.6g}"
-            click.echo(f"marginal at {design}: {answer['reason']}")
+            click.echo(f"marginal at {_design(answer)}: {answer['reason']}")
+    for answer, known in zip(answers, spreads, strict=False):
+        click.echo(("" if single else f"{_design(answer)}: ") + in_one_line(known))
     if single and answers[0]["nearest"]:
         click.echo("\n" + _advice(answers[0], bicycle, model))
+
+
+def _spreads(
+    answers: list[Answer], bicycle: Bicycle, model: Model, of_file: bool, given: dict[str, float]
+) -> list[Spread]:
+    """How far each design's stable speeds are known; none where no standard deviation is asked for."""
+    if not (of_file or given):
+        return []
+    from bikestab.design.sensitivity import sensitivity
+    from bikestab.design.spread import own_spread
+
+    if len(answers) > MOST_SPREADS:
+        problem = f"--sd draws machines for each design, and {len(answers)} are too many"
+        raise click.UsageError(f"{problem}; allowed: {MOST_SPREADS}", click.get_current_context())
+    spreads = []
+    with told_as_options():
+        for answer in answers:
+            found = sensitivity(bicycle, answer["lam"], answer["sigma"], model=model)
+            spreads.append(own_spread(found, of_file=of_file, given=given))
+    if None in spreads:
+        problem = f"the bicycle {bicycle.name!r} has no standard deviations in its file"
+        raise click.BadParameter(f"{problem}; give some, for example --sd mB=1.5", param_hint="--sd")
+    return [known for known in spreads if known]
+
+
+def _design(answer: Answer) -> str:
+    return f"λ = {answer['lam']:.6g}, σ = {answer['sigma']:.6g}"
 
 
 def _rows(answers: list[Answer], wheelbase: float) -> list[list[str]]:

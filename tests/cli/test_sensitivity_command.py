@@ -70,9 +70,30 @@ def test_no_stable_speed(told):
     assert "no stable speed" in out
 
 
+def test_deviations_give_the_speeds_their_own(told, without_warnings):
+    args = "--bicycle", "meijaard2007", "--sd", "c=10mm", "--sd", "lam=1.5deg"
+    code, out, err = told(*args)
+    assert (code, err) == (0, "")
+    line = "V1 = 4.29 [4.03, 4.55], V2 = 6.02 [5.49, 6.52] m/s (90 %)"
+    assert f"within the uncertainties\n{line}\n" in out
+    assert "uncertain: c ± 0.01, lam ± 0.02618" in out
+    printed = without_warnings("vrange", *args)[1]
+    assert (
+        printed.splitlines()[-1]
+        == f"stable speeds exist in 100.0% of machines within the uncertainties; {line}"
+    )
+    records = [json.loads(run(*args, "--json")[1]) for run in (told, partial(without_warnings, "vrange"))]
+    one, other = (record["results"][0]["spread"] for record in records)
+    assert one == other
+    assert one["deviations"]["c"] == 0.01
+
+
 @pytest.mark.parametrize(
     ("args", "expected"),
     [
+        (["--bicycle", "meijaard2007", "--sd", "mX=1"], "--sd: there is no parameter 'mX'; known: w, c"),
+        (["--bicycle", "meijaard2007", "--sd", "mB=0"], "mB=0 is no standard deviation; allowed: above 0"),
+        (["--bicycle", "meijaard2007", "--sd", "mB"], "'mB' is not NAME=VALUE"),
         ([], "has no lam of its own"),
         (["--bicycle", "meijaard2007", "--hold", "rake"], "'rake' is not one of"),
         (["--bicycle", "meijaard2007", "--csv", "none/a.csv"], "none/a.csv: cannot be written"),
