@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 KEPT = "what is finished is kept; the same command goes on from there"
+NOT_KEPT = "no part of it was finished"
 
 
 class BikestabError(Exception):
@@ -40,6 +41,10 @@ class InputError(BikestabError):
 
 class ScanError(BikestabError):
     """The computation or its output could not be finished."""
+
+
+class WorkersLost(ScanError):
+    """Whoever computed is gone; the scan can go on from what is finished."""
 
 
 def dotted(key: Sequence[str | int]) -> str:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
+import re
+import threading
 import time
+import warnings
 from collections.abc import Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from contextlib import contextmanager
@@ -14,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from bikestab import __version__
-from bikestab.errors import KEPT, InputError, ScanError
+from bikestab.errors import InputError, ScanError, WorkersLost
 from bikestab.scan.processes import Numbered, undisturbed, without_script
 from bikestab.scan.tile import Finished, compute
 
@@ -34,8 +38,8 @@ def versions() -> dict[str, str]:
 def on_cluster(tiles: Iterable[Numbered], scheduler: str) -> Generator[tuple[int, Finished]]:
     """Compute tiles on the Dask cluster at an address, or on ``local:N`` processes, in any order.
 
-    Workers may come and go. Raises InputError for an address that nobody answers at and where Dask is not
-    installed, and ScanError where the cluster cannot finish.
+    Workers may come and go. Raises InputError for an address at which nobody is and where Dask is not
+    installed, and ScanError where who is there does not answer as a scheduler, or the cluster cannot finish.
     """
     try:
         import distributed
@@ -53,7 +57,7 @@ def on_cluster(tiles: Iterable[Numbered], scheduler: str) -> Generator[tuple[int
             problem = f"does not answer any more ({error})"
         else:
             return
-    raise ScanError(f"the cluster at {scheduler} {problem}\n{KEPT}") from None
+    raise WorkersLost(f"the cluster at {scheduler} {problem}") from None
 
 
 def _in_flight(client: Any, tiles: Iterable[Numbered]) -> Generator[tuple[int, Finished]]:
@@ -68,7 +72,7 @@ def _in_flight(client: Any, tiles: Iterable[Numbered]) -> Generator[tuple[int, F
         if threads:
             seen = now
         elif now - seen > PATIENCE:
-            raise ScanError(f"the cluster has had no worker for {PATIENCE:.0f} s\n{KEPT}")
+            raise WorkersLost(f"the cluster has had no worker for {PATIENCE:.0f} s")
         for number, tile in islice(todo, max(0, 2 * max(1, threads) - len(running))):
             running[executor.submit(_compute, tile, here)] = number
         if not running:
@@ -116,11 +120,52 @@ def _client(scheduler: str) -> Iterator[Any]:
             with cluster, Client(cluster, set_as_default=False) as client:
                 yield client
         return
-    try:
+    _greet(scheduler)
+    with _one_warning():
         client = Client(scheduler, timeout=ANSWER, set_as_default=False)
-    except Exception as error:  # whoever answers may be no scheduler, and say anything
-        reason = str(error).split("\n")[0][:200]
-        problem = f"no Dask scheduler answers at {scheduler!r} ({reason})"
-        raise InputError(problem, hint="for example --scheduler tcp://127.0.0.1:8786") from None
     with client:
         yield client
+
+
+def _greet(scheduler: str) -> None:
+    """Have a scheduler say who it is, within ANSWER: Dask's client waits for ever for a silent one."""
+    from distributed import rpc
+
+    async def identity() -> None:
+        async with rpc(scheduler, timeout=ANSWER / 2) as there:
+            await there.identity()
+
+    answers: list[BaseException | None] = []
+
+    def ask() -> None:
+        try:
+            answers.append(asyncio.run(asyncio.wait_for(identity(), ANSWER)))
+        except Exception as error:  # whoever answers may be no scheduler, and say anything
+            answers.append(error)
+
+    asking = threading.Thread(target=ask, daemon=True)  # this one may have a loop already
+    asking.start()
+    asking.join(2 * ANSWER)
+    error = answers[0] if answers else TimeoutError()
+    if error is None:
+        return
+    problem = f"no Dask scheduler answers at {scheduler!r}"
+    if isinstance(error, (OSError, ValueError)) and not isinstance(error, TimeoutError):
+        reason = str(error).split("\n")[0][:200]
+        hint = "for example --scheduler tcp://127.0.0.1:8786"
+        raise InputError(f"{problem} ({reason})", hint=hint)
+    raise ScanError(f"{problem}: who is there said nothing within {ANSWER:g} s, or nothing of Dask's")
+
+
+@contextmanager
+def _one_warning() -> Iterator[None]:
+    """Make one line of Dask's table of other versions; those that change the bytes are refused later."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield
+    for warning in caught:
+        text = str(warning.message)
+        if type(warning.message).__name__ == "VersionMismatchWarning":
+            names = re.findall(r"^\| *(\w[\w.-]*) *\|", text, re.MULTILINE)[1:]
+            text = f"the cluster has other versions of {', '.join(names)} than this machine"
+        warnings.warn(" ".join(text.split()), stacklevel=2)

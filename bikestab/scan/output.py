@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from bikestab import yamltext
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.config.variation import Ensemble
-from bikestab.errors import KEPT, InputError, ScanError, dotted
+from bikestab.errors import KEPT, NOT_KEPT, InputError, ScanError, dotted
 from bikestab.fields import AXES, FIELDS
 from bikestab.files import NO_SPACE, beside, linked
 from bikestab.identity import digest
@@ -122,7 +122,7 @@ def unfinished(config: ScanConfig, error: OSError) -> ScanError:
     if isinstance(error, FileNotFoundError):
         return removed(tiles)
     problem = "the disk is full" if error.errno in NO_SPACE else " ".join(str(error).split())[:200]
-    kept = KEPT if tiles.exists() else "no part of it was finished"
+    kept = KEPT if tiles.exists() else NOT_KEPT
     return ScanError(f"{volume_path(config)}: {problem}\n{kept}")
 
 

@@ -21,7 +21,7 @@ from queue import SimpleQueue
 from types import ModuleType
 from typing import cast
 
-from bikestab.errors import KEPT, ScanError
+from bikestab.errors import WorkersLost
 from bikestab.scan.tile import Finished, Tile, compute
 
 Numbered = tuple[int, Tile]
@@ -41,7 +41,7 @@ def in_turn(tiles: Iterable[Numbered]) -> Generator[tuple[int, Finished]]:
 
 
 def in_processes(tiles: Iterable[Numbered], jobs: int) -> Generator[tuple[int, Finished]]:
-    """Compute tiles in ``jobs`` processes, in any order. ScanError if one of them dies.
+    """Compute tiles in ``jobs`` processes, in any order. WorkersLost if one of them dies.
 
     Each has one tile at work and one in reserve, no more: they hold memory.
     """
@@ -60,7 +60,7 @@ def in_processes(tiles: Iterable[Numbered], jobs: int) -> Generator[tuple[int, F
                         raise answer
                     yield number, answer
         except (EOFError, OSError):
-            raise ScanError(f"a worker process died; perhaps the memory is full\n{KEPT}") from None
+            raise WorkersLost("a worker process died; perhaps the memory is full") from None
 
 
 def _hand(worker: Connection, todo: Iterator[Numbered], workers: dict[Connection, deque[int]]) -> None:

@@ -9,7 +9,7 @@ from math import prod
 from pathlib import Path
 
 from bikestab.config.scanconfig import ScanConfig
-from bikestab.errors import InputError
+from bikestab.errors import KEPT, NOT_KEPT, InputError, ScanError, WorkersLost
 from bikestab.scan.agreement import Agreement
 from bikestab.scan.assemble import assemble
 from bikestab.scan.cluster import on_cluster, versions
@@ -82,9 +82,11 @@ def run_scan(
                     result = ScanResult(
                         volume_path(config), True, plan.points, *assemble(plan, spool, volume_path(config))
                     )
-                except BaseException:
+                except BaseException as error:
                     if not spool.notes:
                         spool.remove()
+                    if isinstance(error, WorkersLost):
+                        raise ScanError(f"{error}\n{KEPT if spool.notes else NOT_KEPT}") from None
                     raise
             spool.remove()
             return result

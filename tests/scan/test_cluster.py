@@ -1,8 +1,11 @@
 """Scans on a Dask cluster of real processes, one of them killed on the way."""
 
+import socket
 import subprocess
 import sys
+import threading
 import time
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 
@@ -90,7 +93,7 @@ def test_a_cluster_without_workers(monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE", 1.0)
     with (
         distributed.LocalCluster(n_workers=0, dashboard_address="127.0.0.1:0") as running,
-        pytest.raises(ScanError, match="has had no worker for 1 s"),
+        pytest.raises(ScanError, match="has had no worker for 1 s\nno part of it was finished"),
     ):
         run_scan(config(), scheduler=running.scheduler_address)
     assert files() == []
@@ -113,6 +116,44 @@ def test_nobody_there(address, message, monkeypatch):
     assert "for example --scheduler " in str(caught.value)
     assert time.monotonic() - begin < 20
     assert files() == []
+
+
+@pytest.mark.parametrize("says", [b"", b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n"])
+def test_who_is_there_is_no_scheduler(says, monkeypatch):
+    monkeypatch.setattr(cluster, "ANSWER", 0.5)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        guests = []
+
+        def serve():
+            with suppress(OSError):  # the server is closed
+                while True:
+                    guests.append(server.accept()[0])
+                    guests[-1].sendall(says)
+
+        threading.Thread(target=serve, daemon=True).start()
+        address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+        begin = time.monotonic()
+        with pytest.raises(ScanError) as caught:
+            run_scan(config(), scheduler=address)
+        assert time.monotonic() - begin < 5
+        assert str(caught.value).startswith(f"no Dask scheduler answers at '{address}': who is there said")
+        assert "\n" not in str(caught.value)
+        for guest in guests:
+            guest.close()
+    assert files() == []
+
+
+def test_other_versions_of_a_cluster_are_one_line(monkeypatch):
+    here = distributed.client.version_module.get_versions()
+    here["packages"]["msgpack"] = "0.0.1"
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, dashboard_address="127.0.0.1:0", silence_logs="CRITICAL"
+    ) as running:
+        monkeypatch.setattr(distributed.client.version_module, "get_versions", lambda: here)
+        with pytest.warns(UserWarning, match="other versions") as caught:
+            run_scan(config(), scheduler=running.scheduler_address)
+    texts = [str(warning.message) for warning in caught if "version" in str(warning.message).lower()]
+    assert texts == ["the cluster has other versions of msgpack than this machine"]
 
 
 def test_another_version_is_refused(monkeypatch):
