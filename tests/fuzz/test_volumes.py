@@ -10,7 +10,7 @@ from tests.fuzz.limits import alone
 from tests.fuzz.volumes import ended, originals
 
 PARTS = 4  # so that the cores share the cases
-CASES = {"volumes": 60, "tiles": 15}  # of each part
+CASES = {"volumes": 48, "tiles": 15}  # of each part
 
 
 @pytest.fixture(scope="module")

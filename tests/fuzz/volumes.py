@@ -1,9 +1,10 @@
 """``python -m tests.fuzz.volumes [CASES [FIRST]]``: damaged volumes and kept tiles, and how each ended.
 
-A case is a number: the same number is the same damage. Bytes are changed at random places, or objects by h5py.
+A case is a number: the same number is the same damage, of bytes at random places or of objects by h5py.
 """
 
 import contextlib
+import importlib
 import io
 import random
 import sys
@@ -12,6 +13,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
+import bikestab_cli.main
 import h5py
 import numpy as np
 
@@ -22,7 +24,10 @@ from tests.volumes import config_of
 
 GRID = """\
 bicycle: dikarev1981
-grid: {lam: {start: 0, stop: 0.3, num: 4}, sigma: {values: [0.05, 0.1, 0.15]}, V: {start: 0, stop: 10, num: 6}}
+grid:
+  lam: {start: 0, stop: 0.3, num: 4}
+  sigma: {values: [0.05, 0.1, 0.15]}
+  V: {start: 0, stop: 10, num: 6}
 output: OUT
 """
 TEXTS = (
@@ -30,7 +35,18 @@ TEXTS = (
     GRID + "sweep: {delta: [0, 1]}\n",
     GRID + "ensemble: {m1: {normal: [80, 1]}, samples: 5, seed: 1}\n",
 )
+for module in ("info", "export"):  # what each case needs is here before it forks
+    importlib.import_module(f"bikestab_cli.{module}")
+for module in ("summary", "volumes", "meshes", "tables"):
+    importlib.import_module(f"bikestab.export.{module}")
+
 COMMANDS = (("info",), ("info", "--json"), ("export", "--intervals", "a.csv"))
+
+
+VALUES = (
+    None, 0, -1, np.nan, 1e300, 2**63 - 1, "", "\ud800", "[" * 3000, b"\xff", [1, 2], ["a"], "{}", True,
+    h5py.Empty("f8"), np.zeros((3, 3)), "x" * 70_000,
+)  # fmt: skip
 
 
 def originals(folder):
@@ -88,22 +104,7 @@ def _edit(file, name, chance):
     kind = chance.choice(("attribute", "attribute", "values", "delete", "retype", "reshape", "group", "link"))
     if kind == "attribute":
         key = chance.choice(sorted(item.attrs))
-        values = (
-            None,
-            0,
-            -1,
-            np.nan,
-            1e300,
-            2**63 - 1,
-            "",
-            "\ud800",
-            "[" * 3000,
-            b"\xff",
-            [1, 2],
-            ["a"],
-            "{}",
-        )
-        value = chance.choice((*values, h5py.Empty("f8"), np.zeros((3, 3)), "x" * 70_000, True))
+        value = chance.choice(VALUES)
         if value is None:
             del item.attrs[key]
         else:
@@ -128,8 +129,6 @@ def _edit(file, name, chance):
 
 def told(content, number):
     """The exit code of a command for a damaged volume."""
-    from bikestab_cli.main import main
-
     chance, out, err = random.Random(number), io.StringIO(), io.StringIO()
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         path = Path("volume.h5")
@@ -140,7 +139,7 @@ def told(content, number):
         sys.argv, code = ["bikestab", command, str(path), *more], 0
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             try:
-                main()
+                bikestab_cli.main.main()
             except SystemExit as end:
                 code = int(end.code or 0)
         left = sorted(name.name for name in Path().iterdir())
@@ -164,8 +163,10 @@ def resumed(whole, number):
         try:
             done = run_scan(config_of(text, folder), jobs=1)
         except BikestabError as error:
-            assert path.read_bytes() == damaged, "kept tiles were lost"
-            assert len(str(error).splitlines()) <= 3
+            kept = path.read_bytes()
+            assert kept == damaged, "kept tiles were lost"
+            lines = str(error).splitlines()
+            assert len(lines) <= 3, lines
             return 2 if isinstance(error, InputError) else 3
         made = done.path.read_bytes()
     assert _content(made) == _content(volume)
