@@ -63,6 +63,7 @@ def measured() -> dict[str, float]:
 def started(python: str, source: str | None) -> dict[str, float]:
     """The times of one process of a build, and of its ``vrange`` [ns]."""
     environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed program is compiled only once
     if source:
         environment["PYTHONPATH"] = f"{source}:{source}/cli"
     run = subprocess.run([python, __file__, "--child"], env=environment, check=True, capture_output=True)
