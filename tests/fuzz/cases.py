@@ -1,0 +1,156 @@
+"""Hostile cases for hypothesis: configs by their schema, damaged files, command lines."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from hypothesis import strategies as st
+
+from bikestab.bicycle import PAPER, preset_names, preset_text
+from bikestab.config.scanconfig import ScanConfig
+from bikestab.fields import AXES, askable
+from bikestab.notation import MEIJAARD
+from bikestab.yamltext import copied, dumped
+from tests.fuzz.harness import KEPT, Case
+
+CONFIGS = Path(__file__).parents[2] / "configs"
+SEEDS = [path.read_bytes() for path in sorted(CONFIGS.glob("*.yaml"))]
+BICYCLES = [preset_text(name).encode() for name in preset_names()]
+BICYCLES += [b"w = 1.02+/-0.01\nc = 0.08\nlam = pi/10\ng = 9.81\n", b"[bicycle]\nw=1\n"]
+NASTY = [
+    None, True, False, 0, -1, 1, 2, 10**30, -(10**400), 1e-320, 1e308, float("inf"), float("nan"), "", " ",
+    "1", "1e999", "18deg", "1 furlong", "0x", "9" * 300, "\0", "a\nb", "\x1b[2J", "λ", "\U0001f6b2", "../x",
+    "/", ".", "never", "unbounded", [], {}, [[]], [{}], {"": ""}, {"values": []}, {"start": 0}, [1, 2],
+    ["a"], {"a": {"b": {"c": [1]}}}, "*a", "<<", "~",
+]  # fmt: skip
+TOKENS = [
+    b"&a ", b"*a", b"<<: *a", b"!!int ", b"!!bool x", b"!<a> ", b"{", b"}", b"[", b"]", b"? ", b": ", b"- ",
+    b"\t", b"\0", b"\xff", b"\xc3", b"'", b'"', b"#", b"|\n", b">-\n", b"%YAML 9.9\n", b"---\n", b"...\n",
+    b"1e999", b"-", b"9" * 5000, b" " * 3000, b".nan", b".inf", b"0o7", b"\r", b"\x1b[2J", b"\xef\xbb\xbf",
+    b"+/-", b"=", b",", b"pi/0",
+]  # fmt: skip
+
+nasty = st.sampled_from(NASTY)
+numbers = st.floats(-20, 20) | st.integers(-5, 60) | st.floats() | nasty
+axes = st.one_of(
+    st.fixed_dictionaries({"start": numbers, "stop": numbers, "num": st.integers(-1, 5) | nasty}),
+    st.fixed_dictionaries({"values": st.lists(numbers, max_size=4)}),
+    nasty,
+)
+parameters = st.dictionaries(
+    st.sampled_from([*PAPER, *MEIJAARD, "name", "source", "x"]), numbers, max_size=30
+)
+varied = st.sampled_from([*PAPER, *MEIJAARD, "samples", "seed", "quantiles", "x"])
+planes = st.dictionaries(st.sampled_from([*AXES, "x"]), numbers, max_size=2)
+expected = st.sampled_from(["lam", "sigma", "V1", "V2", "within", "stable"])
+KEYS: dict[str, st.SearchStrategy[Any]] = {
+    "title": st.text(max_size=30) | nasty,
+    "bicycle": st.sampled_from(preset_names()) | parameters | nasty,
+    "model": st.sampled_from(["refined", "unrefined"]) | nasty,
+    "delta": numbers,
+    "grid": st.fixed_dictionaries(dict.fromkeys(AXES, axes)) | nasty,
+    "fields": st.lists(st.sampled_from(askable()) | nasty, max_size=4) | nasty,
+    "sweep": st.dictionaries(varied, axes | st.lists(numbers, max_size=3), max_size=3) | nasty,
+    "ensemble": st.dictionaries(
+        varied, st.fixed_dictionaries({"normal": st.lists(numbers, max_size=3)}) | numbers, max_size=4
+    ) | nasty,
+    "slices": st.lists(planes | nasty, max_size=3) | nasty,
+    "output": st.just("out") | st.sampled_from(["", "a/b", "kept.csv", "n" * 300, "a\0b"]),
+    "expect": st.lists(st.dictionaries(expected, numbers, max_size=5) | nasty, max_size=3) | nasty,
+}  # fmt: skip
+GOOD: dict[str, Any] = {
+    "grid": {
+        "lam": {"start": 0, "stop": 0.3, "num": 4},
+        "sigma": {"values": [0.01, 0.1]},
+        "V": {"start": 0, "stop": "36km/h", "num": 5},
+    },
+    "expect": [{"lam": 0.2, "sigma": 0.08, "V1": 4.056}, {"lam": 0.1, "sigma": 0.08, "stable": "never"}],
+}
+assert set(KEYS) == set(ScanConfig.model_fields)
+
+
+@st.composite
+def configs(draw: Any) -> Case:
+    """A config whose values are good, bad or missing, and more keys than there are."""
+    data: dict[str, Any] = copied(GOOD) | {"bicycle": draw(st.sampled_from(preset_names()))}
+    for key in draw(st.lists(st.sampled_from(sorted(KEYS)), max_size=3)):
+        data[key] = draw(KEYS[key])
+    if isinstance(data["grid"], dict) and draw(st.booleans()):  # one place deep in it
+        axis = data["grid"].get(draw(st.sampled_from(AXES)))
+        if isinstance(axis, dict):
+            axis[draw(st.sampled_from(["start", "stop", "num", "values"]))] = draw(numbers)
+    for key in draw(st.lists(st.sampled_from(sorted(data)), max_size=1)):
+        del data[key]
+    if draw(st.integers(0, 9)) == 0:
+        data[draw(st.text(max_size=8))] = draw(nasty)
+    text = dumped(data).encode("utf-8", "replace")
+    return Case(("check", "a.yaml"), {"a.yaml": text})
+
+
+@st.composite
+def damaged(draw: Any, text: bytes) -> bytes:
+    """A text with some places replaced, doubled, dropped, or with something put in."""
+    for _ in range(draw(st.integers(1, 4))):
+        at = draw(st.integers(0, len(text)))
+        end = min(len(text), at + draw(st.integers(0, 12)))
+        kind = draw(st.sampled_from(["token", "byte", "drop", "double", "cut"]))
+        middle = {
+            "token": draw(st.sampled_from(TOKENS)), "byte": draw(st.binary(min_size=1, max_size=2)),
+            "drop": b"", "double": 2 * text[at:end], "cut": b"",
+        }[kind]  # fmt: skip
+        text = text[:at] + middle + (b"" if kind == "cut" and draw(st.booleans()) else text[end:])
+    return text
+
+
+@st.composite
+def damaged_configs(draw: Any) -> Case:
+    """One of the configs that come with the project, damaged."""
+    return Case(("check", "a.yaml"), {"a.yaml": draw(damaged(draw(st.sampled_from(SEEDS))))})
+
+
+@st.composite
+def damaged_bicycles(draw: Any) -> Case:
+    """A bicycle's file, damaged."""
+    command = draw(st.sampled_from([("vrange", "--lam", "0.2", "--sigma", "0.1"), ("vrange",), ("eigen",)]))
+    return Case((*command, "--bicycle", "a.yaml"), {"a.yaml": draw(damaged(draw(st.sampled_from(BICYCLES))))})
+
+
+WORDS = [
+    "0.2", "0.08", "0:0.3:4", "18deg", "1e999", "nan", "-0", "", " ", "9" * 5000, "1" + " " * 3000 + "x",
+    "0:1:2:3", "0:1:9999999999", "a=b", "=", "delta=1", "grid.lam.num=3", "fields=[[1]]", "title={[1]: 2}",
+    "output=[]", "x" * 500, "grid=~", "expect=[{stable: never}]", "slices.0.lam=1", "\x1b[2J", "λ",
+    "\udc80", "none.yaml", ".", "a.yaml", "meijaard2007", "dikarev1981", "out.csv", "out.png", "out.xyz",
+    "5", "5:1", "a/b", "n" * 300, "loop", "refined", "--", "-", "--help", "-h",
+]  # fmt: skip
+OPTIONS = [
+    "--lam", "--sigma", "--V", "--bicycle", "--model", "--delta", "--json", "--csv", "-o", "--output",
+    "--force", "--set", "--at", "--mesh", "--intervals", "--skeleton", "--cells", "--scale",
+    "--probability", "--config", "--lamb", "-x",
+]  # fmt: skip
+COMMANDS = [
+    "vrange", "eigen", "check", "info", "slice", "export", "init", "bicycles", "schema", "scam", "",
+    "--version",
+]  # fmt: skip
+
+
+@st.composite
+def command_lines(draw: Any) -> Case:
+    """Options and words in any order. No command that may compute for long, and no file but in the folder."""
+    words = st.sampled_from([*WORDS, KEPT + "/x"])
+    args = [draw(st.sampled_from(COMMANDS))]
+    for _ in range(draw(st.integers(0, 5))):
+        args.append(draw(st.sampled_from(OPTIONS)))
+        if draw(st.integers(0, 5)):
+            args.append(draw(words))
+    if draw(st.booleans()):
+        args.append(draw(words))
+    return Case(tuple(args), {})
+
+
+KINDS: dict[str, st.SearchStrategy[Case]] = {
+    "configs": configs(),
+    "damaged configs": damaged_configs(),
+    "damaged bicycles": damaged_bicycles(),
+    "command lines": command_lines(),
+}

@@ -1,0 +1,30 @@
+"""A few hundred hostile cases of each kind; ``python -m tests.fuzz`` runs as many as are wanted."""
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+
+from tests.fuzz.cases import KINDS
+from tests.fuzz.harness import Hang, judged, limited
+
+CASES = 75  # of each kind
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_command_ends_as_it_has_to(kind):
+    @settings(
+        max_examples=CASES,
+        deadline=None,
+        database=None,
+        derandomize=True,
+        suppress_health_check=list(HealthCheck),
+    )
+    @given(KINDS[kind])
+    def check(case):
+        judged(case)
+
+    check()
+
+
+def test_the_clock():
+    with pytest.raises(Hang), limited(0.05):
+        sum(iter(int, 1))  # for ever
