@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from copy import copy
 from functools import partial
 from pathlib import Path
@@ -176,7 +176,15 @@ def parameters_text(bicycle: Bicycle) -> str:
     return json.dumps(bicycle.numbers())
 
 
+def check_ranges(volume: Volume, names: Iterable[Axis], what: str) -> None:
+    """Raise InputError where one of these axes has a single value, which ``what`` cannot be made of."""
+    for name in names:
+        if len(volume.axis(name)) == 1:
+            problem = f"has one value of {name} alone, and {what} needs a range"
+            raise InputError(problem, place=str(volume.path))
+
+
 def uniform(values: Floats) -> bool:
     """Whether an axis has equal steps, which VTK's image data needs."""
     steps = np.diff(values)
-    return bool(np.allclose(steps, steps[0], rtol=1e-9, atol=0))
+    return bool(len(steps) and np.allclose(steps, steps[0], rtol=1e-9, atol=0))

@@ -169,6 +169,12 @@ class ScanConfig(Strict):
             if not first <= value <= last:
                 hint = f"allowed: {first:g} ... {last:g}"
                 raise mistake(f"{value:g} is outside the grid", hint, ("slices", i, name))
+            for other in AXES:
+                if other != name and getattr(self.grid, other).size == 1:
+                    problem = f"a picture needs a range of {other}, and the grid has one value"
+                    raise mistake(
+                        problem, f"leave it out, or give more values in grid.{other}", ("slices", i)
+                    )
         try:
             check_names(self.bicycle, self.sweep, self.ensemble, own_delta=self.delta is not None)
             check_samples(self.members, self.ensemble)

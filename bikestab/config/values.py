@@ -140,7 +140,7 @@ class Range(Strict, Generic[T]):
 class Values(Strict, Generic[T]):
     """Values of one's own choice."""
 
-    values: Annotated[list[T], Field(min_length=2)]
+    values: Annotated[list[T], Field(min_length=1)]
 
     @model_validator(mode="after")
     def _ordered(self) -> Values[T]:
@@ -156,12 +156,6 @@ class Values(Strict, Generic[T]):
     def points(self) -> Floats:
         """The values."""
         return np.array(self.values, dtype=float)
-
-
-class OneOrMore(Values[Number]):
-    """Values of one's own choice; one is enough."""
-
-    values: Annotated[list[Number], Field(min_length=1)]
 
 
 class Listed(RootModel[Annotated[list[Number], Field(min_length=1)]]):
@@ -185,6 +179,38 @@ class Listed(RootModel[Annotated[list[Number], Field(min_length=1)]]):
         return np.array(self.root, dtype=float)
 
 
+class TiltRange(Range[Tilt]):
+    """Equally spaced tilts, both ends included."""
+
+
+class TiltValues(Values[Tilt]):
+    """Chosen tilts."""
+
+
+class TrailRange(Range[Trail]):
+    """Equally spaced trails, both ends included."""
+
+
+class TrailValues(Values[Trail]):
+    """Chosen trails."""
+
+
+class SpeedRange(Range[Speed]):
+    """Equally spaced speeds, both ends included."""
+
+
+class SpeedValues(Values[Speed]):
+    """Chosen speeds."""
+
+
+class NumberRange(Range[Number]):
+    """Equally spaced numbers, both ends included."""
+
+
+class NumberValues(Values[Number]):
+    """Chosen numbers."""
+
+
 def _tag(given: Any) -> str:
     chosen = isinstance(given, Values) or (isinstance(given, dict) and "values" in given)
     return "values" if chosen else "range"
@@ -196,17 +222,17 @@ def _tag_or_list(given: Any) -> str:
 
 _BY_KEYS = Discriminator(_tag)
 TiltAxis: TypeAlias = Annotated[
-    Annotated[Range[Tilt], Tag("range")] | Annotated[Values[Tilt], Tag("values")], _BY_KEYS
+    Annotated[TiltRange, Tag("range")] | Annotated[TiltValues, Tag("values")], _BY_KEYS
 ]
 TrailAxis: TypeAlias = Annotated[
-    Annotated[Range[Trail], Tag("range")] | Annotated[Values[Trail], Tag("values")], _BY_KEYS
+    Annotated[TrailRange, Tag("range")] | Annotated[TrailValues, Tag("values")], _BY_KEYS
 ]
 SpeedAxis: TypeAlias = Annotated[
-    Annotated[Range[Speed], Tag("range")] | Annotated[Values[Speed], Tag("values")], _BY_KEYS
+    Annotated[SpeedRange, Tag("range")] | Annotated[SpeedValues, Tag("values")], _BY_KEYS
 ]
 NumberAxis: TypeAlias = Annotated[
-    Annotated[Range[Number], Tag("range")]
-    | Annotated[OneOrMore, Tag("values")]
+    Annotated[NumberRange, Tag("range")]
+    | Annotated[NumberValues, Tag("values")]
     | Annotated[Listed, Tag("list")],
     Discriminator(_tag_or_list),
 ]

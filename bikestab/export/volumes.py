@@ -13,7 +13,7 @@ from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import Mesh, region_mesh
-from bikestab.volume import Volume
+from bikestab.volume import Volume, check_ranges
 
 Paths = Iterable[str | Path]
 
@@ -41,6 +41,7 @@ def export_skeleton(volume: Volume, paths: Paths) -> list[Curve]:
     They are traced through the volume's (λ, σ), and at all speeds, since two of them are at infinite ones.
     Raises as ``save_table``.
     """
+    check_ranges(volume, ("lam", "sigma"), "the skeleton")
     lam, sigma, _ = _box(volume)
     curves = trace(Family(volume.bicycle, volume.model), lam, sigma)
     for path in paths:
@@ -56,6 +57,7 @@ def export_mesh(
     ``cells`` are the triangles along tilt and along trail, and ``scale`` (3,) the factors of λ, σ and V, by
     default round ones. Raises as ``save_mesh``.
     """
+    check_ranges(volume, AXES, "a mesh")
     box = _box(volume)
     mesh = region_mesh(Family(volume.bicycle, volume.model), *box, cells=cells)
     factors = readable_scale(*zip(*box, strict=True)).tolist() if scale is None else scale

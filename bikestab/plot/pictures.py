@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from bikestab.config.scanconfig import ScanConfig
+from bikestab.fields import AXES
 from bikestab.plot import region
 from bikestab.plot.files import save, slice_name
 from bikestab.plot.slices import draw_slice, on_grid
@@ -32,19 +33,24 @@ def draw_pictures(config: ScanConfig, path: str | Path, tell: Callable[[str], No
         ]
 
 
-def _of_one(
-    config: ScanConfig, volume: Volume, values: Mapping[str, float], tell: Callable[[str], None]
-) -> list[Path]:
-    folder, pictures = volume.path.parent, []
-    path = folder / slice_name(values, "region")
+def _region(volume: Volume, path: Path, tell: Callable[[str], None]) -> list[Path]:
     try:
         figure = region.draw_region(volume)
     except Exception as error:  # the volume and the other pictures are worth more than this one
         text = f"{type(error).__name__}: {error}".rstrip(": ")
         tell(f"warning: {path} cannot be drawn ({text}); please report this")
-    else:
-        save(figure, path)
-        pictures.append(path)
+        return []
+    save(figure, path)
+    return [path]
+
+
+def _of_one(
+    config: ScanConfig, volume: Volume, values: Mapping[str, float], tell: Callable[[str], None]
+) -> list[Path]:
+    folder = volume.path.parent
+    pictures: list[Path] = []
+    if all(len(volume.axis(name)) > 1 for name in AXES):
+        pictures += _region(volume, folder / slice_name(values, "region"), tell)
     fields: tuple[Literal["growth_rate", "probability"], ...] = ("growth_rate", "probability")
     for plane in config.slices:
         fixed, value = plane.fixed

@@ -22,7 +22,7 @@ from bikestab.plot.settings import own_settings
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import conditions, violated
 from bikestab.spectrum import growth_rate_of
-from bikestab.volume import Volume
+from bikestab.volume import Volume, check_ranges
 
 _SAMPLES = 401  # per axis, for finding the curves; their points are then moved onto the exact zero
 
@@ -51,6 +51,7 @@ def draw_slice(
     if field == "probability":
         value = on_grid(volume, fixed, value)
     section = Section(Family(volume.bicycle, volume.model), fixed, value)
+    check_ranges(volume, section.axes, "a picture")
     x, y = (volume.axis(name) for name in section.axes)
     figure = Figure(figsize=(7.4, 5.2), layout="constrained")
     ax = figure.add_subplot()

@@ -130,7 +130,7 @@ def test_a_mistake_in_the_file_is_not_blamed_on_an_override():
         (change("num: 6", "num: ~"), 5, "grid.V.num: nothing is not a whole number", "whole number"),
         (change(GRID_V, "{values: [1, 3, 2]}"), 5, "grid.V: 2.0 does not come after 3.0", "increase"),
         (change(GRID_V, "{values: [1, 1]}"), 5, "grid.V: 1.0 does not come after 1.0", "increase"),
-        (change(GRID_V, "{values: [1]}"), 5, "grid.V.values: [1] is not", "at least 2"),
+        (change(GRID_V, "{values: []}"), 5, "grid.V.values: [] is not", "at least 1"),
         (change(GRID_V, "{values: 3}"), 5, "grid.V.values: 3 is not a list", "a list"),
         (change(GRID_V, "{values: [1, fast]}"), 5, "grid.V.values[1]: 'fast' is not a number", "a number"),
         (change(GRID_V, "5"), 5, "grid.V: 5 is not keys with values", "start, stop, num"),

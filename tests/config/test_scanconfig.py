@@ -143,7 +143,7 @@ def test_what_loads_fits_the_schema(text):
         change("stop: 0.3", "stop: 20km/h"),
         change("stop: 0.3", "stop: wide"),
         change("stop: 10", "stop: 18deg"),
-        change(GRID_V, "{values: [1]}"),
+        change(GRID_V, "{values: []}"),
         change(GRID_V, "{values: 1}"),
         change("bicycle: dikarev1981\n", ""),
         change("dikarev1981", "3"),
@@ -153,3 +153,12 @@ def test_what_loads_fits_the_schema(text):
 def test_what_the_schema_refuses_does_not_load(text):
     assert not valid(text)
     message(text)
+
+
+def test_the_schemas_names_are_words():
+    assert all(name.isalpha() for name in config_schema()["$defs"])
+
+
+def test_an_axis_may_have_one_value():
+    grid = load(GOOD, "grid.V={values: [5]}").grid
+    assert (grid.shape[2], grid.ends("V")) == (1, (5.0, 5.0))
