@@ -78,8 +78,6 @@ def _coordinate(file: h5py.File, name: str, unit: str = "") -> Floats:
 
 def _check_grid(grid: dict[str, Floats]) -> None:
     for name, check in zip(AXES, (check_tilt, check_trail, check_speed), strict=True):
-        if len(grid[name]) < 2:
-            raise InputError("has a single value", key=(name,))
         for value in (grid[name][0], grid[name][-1]):
             check(float(value), (name,))
 

@@ -173,7 +173,7 @@ DAMAGE = {
     "negative mass": (parameters(lambda n: n.update(m1=-1)), "bicycle_parameters.m1: -1 is not positive"),
     "another mass": (parameters(lambda n: n.update(m1=81)), "'config_sha256' is of another scan"),
     # axes
-    "short axis": (replaced("lam", [0.1]), "lam: has a single value"),
+    "short axis": (replaced("lam", [0.1]), "stable: has the shape 7 × 5 × 11, not the shape 1"),
     "no value": (replaced("lam", np.empty(0)), "lam: is empty"),
     "axis of another length": (replaced("lam", [0, 0.1]), "stable: has the shape 7 × 5 × 11, not"),
     "axis of two axes": (replaced("V", np.zeros((11, 1))), "V: has the shape 11 × 1, not one axis"),

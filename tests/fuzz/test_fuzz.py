@@ -4,7 +4,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from tests.fuzz.cases import KINDS
-from tests.fuzz.harness import Hang, judged, limited
+from tests.fuzz.harness import Case, Hang, judged, limited
 
 CASES = 75  # of each kind
 
@@ -23,6 +23,16 @@ def test_every_command_ends_as_it_has_to(kind):
         judged(case)
 
     check()
+
+
+@pytest.mark.parametrize("error", [ZeroDivisionError("no such luck"), RuntimeWarning("of numpy")])
+def test_what_the_judge_would_say_of_a_mistake(monkeypatch, error):
+    def broken(name):
+        raise error
+
+    monkeypatch.setattr("bikestab.bicycle.Bicycle.load", broken)
+    with pytest.raises(AssertionError, match="a mistake of bikestab itself"):
+        judged(Case(("vrange",)))
 
 
 def test_the_clock():
