@@ -55,13 +55,13 @@ def units_in(meaning: str) -> Units:
 
 
 def shown(value: object) -> str:
-    """A value as it is quoted in a message: short, on one line."""
+    """A value as it is quoted in a message: on one line, without its middle where it is long."""
     try:
         text = "nothing" if value is None else repr(value) if isinstance(value, str) else str(value)
     except ValueError:  # Python does not print integers of thousands of digits
         return "an integer of thousands of digits"
     text = " ".join(text.split())
-    return text if len(text) <= 60 else text[:57] + "..."
+    return text if len(text) <= 60 else f"{text[:28]} ... {text[-27:]}"
 
 
 def _read(text: str, units: Units, key: tuple[str | int, ...]) -> float | str:
