@@ -59,7 +59,7 @@ def _row(found: Sensitivity, name: str, interval: int) -> Row:
         "value": found.values[name],
         "unit": found.units[name],
         "meaning": found.meanings[name],
-        "notation": name in found.bicycle.notation,
+        "notation": name in found.bicycle.notation and name != "trail",  # which stands for σ there
         "dV1": dV1,
         "dV2": None if unbounded else dV2,
         "elasticity_V1": one,

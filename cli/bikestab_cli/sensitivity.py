@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.options import (
@@ -40,6 +42,7 @@ if TYPE_CHECKING:
 )  # fmt: skip
 @equation_options
 @sd_option
+@click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw the effects as bars: PNG, PDF or SVG.")
 @click.option("--csv", "csv_file", type=FILE, metavar="FILE", help="Write all rows at full precision.")
 @json_option
 def command(
@@ -50,6 +53,7 @@ def command(
     model: Model,
     delta: float | None,
     deviations: tuple[bool, dict[str, float]],
+    output: str | None,
     csv_file: str | None,
     as_json: bool,
 ) -> None:
@@ -73,6 +77,7 @@ def command(
       bikestab sensitivity --bicycle meijaard2007
       bikestab sensitivity --bicycle meijaard2007 --hold offset --csv benchmark.csv
       bikestab sensitivity --lam 0.2 --sigma 0.08 --json
+      bikestab sensitivity --bicycle meijaard2007 -o tornado.png
       bikestab sensitivity --bicycle meijaard2007 --bicycle sharp1971
       bikestab sensitivity --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
     """
@@ -85,7 +90,7 @@ def command(
     from bikestab.export.tables import SENSITIVITY, save_csv, sensitivity_blocks
 
     bicycles = [load_bicycle(name, delta) for name in bicycle_names or (DEFAULT_BICYCLE,)]
-    check_files(csv_file)
+    check_files(csv_file, output)
     if (
         len({bicycle.bodies is None for bicycle in bicycles}) > 1
     ):  # c is the trail in one, the wheelbase in the other
@@ -100,12 +105,28 @@ def command(
     ]
     if csv_file:
         save_csv(SENSITIVITY, sensitivity_blocks(records), csv_file)
+    if output:
+        _draw(records, output)
+    files = {kind: name for kind, name in (("table", csv_file), ("picture", output)) if name}
     if as_json:
-        print_json({"results": records, **({"csv": csv_file} if csv_file else {})})
+        print_json({"results": records, **files})
         return
     click.echo(told(found[0], records[0]) if len(found) == 1 else side_by_side(found, records))
     for each, known in zip(found, spreads, strict=True):
         if known:
             click.echo(f"\n{each.bicycle.name}, {told_spread(known)}")
-    if csv_file:
-        click.echo(f"table: {csv_file}")
+    for kind, name in files.items():
+        click.echo(f"{kind}: {name}")
+
+
+def _draw(records: Sequence[Mapping[str, Any]], output: str) -> None:
+    """The effects on each machine's widest stable interval."""
+    from bikestab.design.effects import width
+    from bikestab.plot.files import save
+    from bikestab.plot.tornado import draw_tornado
+
+    machines = []
+    for record in records:
+        widest: Any = max(record["intervals"], key=width, default={"parameters": []})
+        machines.append((record["bicycle"], widest["parameters"]))
+    save(draw_tornado(machines), Path(output))

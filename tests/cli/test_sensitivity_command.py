@@ -88,6 +88,14 @@ def test_deviations_give_the_speeds_their_own(told, without_warnings):
     assert one["deviations"]["c"] == 0.01
 
 
+def test_the_tornado_picture(told):
+    code, out, err = told("--bicycle", "meijaard2007", "--bicycle", "sharp1971", "-o", "a.png")
+    assert (code, err) == (0, "")
+    assert out.endswith("picture: a.png\n")
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
+    assert told("--bicycle", "meijaard2007", "-o", "a.pgn")[0] == 2
+
+
 @pytest.mark.parametrize(
     ("args", "expected"),
     [

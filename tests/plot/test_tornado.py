@@ -1,0 +1,25 @@
+"""The tornado picture: its bars are the elasticities, the largest on top."""
+
+import pytest
+
+from bikestab.bicycle import Bicycle
+from bikestab.design.effects import effects
+from bikestab.design.sensitivity import sensitivity
+from bikestab.plot.tornado import draw_tornado
+
+
+def test_bars_are_elasticities():
+    found = sensitivity(Bicycle.preset("meijaard2007"))
+    figure = draw_tornado([("meijaard2007", effects(found, 0)), ("none", [])])
+    ax, empty = figure.axes
+    names = [label.get_text().split(" = ")[0] for label in ax.get_yticklabels()]
+    assert names[:2] == ["xH", "w"]
+    assert "IByy" not in names
+    assert "offset" not in names
+    for container, which in zip(ax.containers, (0, 1), strict=True):
+        for name, bar in zip(names, container, strict=True):
+            assert bar.get_width() == pytest.approx(found.elasticity(name)[which][0])
+    tops = [bar.get_y() for bar in ax.containers[0]]
+    assert tops == sorted(tops)
+    assert ax.get_ylim()[0] > ax.get_ylim()[1]
+    assert "no stable speed" in empty.get_title()
