@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
 from bikestab.limits import check_product, check_tilt, check_trail, check_value, part_warnings, require
-from bikestab.notation import MEIJAARD, OPTIONAL, two_parts
+from bikestab.notation import MEASURED, MEIJAARD, OPTIONAL, two_parts
 from bikestab.presets import preset_names, preset_text
 from bikestab.rider import RIDER, flattened, left_behind
 from bikestab.texts import is_file
@@ -153,8 +153,8 @@ class Bicycle:
         """A bicycle from keys in the paper's notation or the 25 parameters of Meijaard et al. (2007).
 
         The two are told apart by their keys: only the latter has ``w``. ``R`` stands for equal
-        ``R1`` and ``R2``; ``trail`` [m] may stand for ``sigma``. ``rider``, a mapping, is one body more than
-        the 25's. InputError names the key.
+        ``R1`` and ``R2``; two of ``head_angle``, ``trail`` and ``offset`` may stand for tilt and trail.
+        ``rider``, a mapping, is one body more than the 25's. InputError names the key.
         """
         values = flattened(values)
         texts: dict[str, str] = {"name": name, "source": ""}
@@ -164,18 +164,23 @@ class Bicycle:
                     raise InputError(f"{shown(text)} is not text", key=(key,))
                 texts[key] = str(text)  # YAML readers give subclasses
         notation = {**MEIJAARD, **RIDER} if _is_meijaard(values) else PAPER
+        known = {**notation, **MEASURED}
         for key in values:
-            if key not in notation:
+            if key not in known:
                 other = " (a key of the other notation)" if key in {**MEIJAARD, **RIDER, **PAPER} else ""
                 raise InputError(
                     f"unknown parameter{other}",
                     key=(str(key),),
-                    hint=nearest(str(key), [*notation, "name", "source"]),
+                    hint=nearest(str(key), [*known, "name", "source"]),
                 )
-        numbers = {k: quantity(value, units_in(notation[k]), key=(k,)) for k, value in values.items()}
+        numbers = {k: quantity(value, units_in(known[k]), key=(k,)) for k, value in values.items()}
+        if MEASURED.keys() & numbers:
+            from bikestab.geometry import in_notation  # most bicycles need no numpy
+
+            numbers = in_notation(numbers, *(("c", "sigma") if notation is PAPER else ("w", "c")))
         if notation is not PAPER:
-            known = notation if any(key in RIDER for key in numbers) else MEIJAARD
-            require(numbers, [key for key in known if key not in OPTIONAL], known)
+            needed = notation if any(key in RIDER for key in numbers) else MEIJAARD
+            require(numbers, [key for key in needed if key not in OPTIONAL], needed)
             bicycle = cls(**two_parts(numbers), name=texts["name"], source=texts["source"])
             object.__setattr__(bicycle, "bodies", numbers)
             return bicycle
@@ -237,11 +242,6 @@ def _from_paper(n: dict[str, float], texts: dict[str, str]) -> Bicycle:
             if key in n:
                 raise InputError("R and " + key + " are both given", key=(key,), hint="give R, or R1 and R2")
         n["R1"] = n["R2"] = n.pop("R")
-    if "trail" in n:
-        if "sigma" in n:
-            raise InputError("trail and sigma are both given", key=("trail",), hint="give one of them")
-        trail = n.pop("trail")
-        n["sigma"] = trail / n["c"] if n.get("c", 0) > 0 else 0.0
     radii = ("R1", "R2") if "R1" in n or "R2" in n else ("R",)
     others = [p.name for p in parameters() if p.name not in (*_OPTIONAL, "R1", "R2")]
     require(n, (*others, *radii), PAPER)

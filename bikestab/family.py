@@ -100,10 +100,10 @@ class Family:
         machine, lam, sigma = self._designs(x, y)
         return characteristic_table(machine, lam, sigma, model=self.model)
 
-    def geometry(self, x: ArrayLike, y: ArrayLike) -> tuple[Any, Any, Any]:
-        """Tilt λ [rad], σ and the wheelbase [m] at values of the two parameters; they broadcast together."""
+    def geometry(self, x: ArrayLike, y: ArrayLike) -> tuple[Any, Any, Bicycle | Machines]:
+        """Tilt λ [rad], σ and the machine at values of the two parameters; they broadcast together."""
         machine, lam, sigma = self._designs(x, y)
-        return lam, sigma, machine.c
+        return lam, sigma, machine
 
     def check(self, x: float, y: float) -> None:
         """Raise InputError, with the parameter's name as key, for values that no machine can have."""

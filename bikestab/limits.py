@@ -23,6 +23,18 @@ def check_tilt(lam: float, key: tuple[str | int, ...]) -> None:
         )
 
 
+def tilt_doubt(lowest: float) -> list[str]:
+    """The likely mistake where the lowest of some tilts [rad] is beyond half a right angle."""
+    if not math.pi / 4 < lowest < math.pi / 2:
+        return []
+    degrees = math.degrees(lowest)
+    text = (
+        f"λ = {degrees:.6g}° is a head angle of {90 - degrees:.6g}°: lam is the tilt from the vertical; "
+        f"for a head angle of {degrees:.6g}° give lam = {90 - degrees:.6g}deg, or head_angle"
+    )
+    return [text]
+
+
 def check_trail(sigma: float, key: tuple[str | int, ...]) -> None:
     """Raise InputError for a trail beyond all sense, which would overflow in the conditions."""
     if not abs(sigma) <= MOST_TRAIL:

@@ -44,6 +44,11 @@ MEIJAARD: dict[str, str] = {
     "IFxx": "front wheel inertia about a diameter [kg m²]",
     "IFyy": "front wheel spin inertia [kg m²]",
 }
+MEASURED: dict[str, str] = {  # what builders measure, in either notation beside lam and the trail
+    "head_angle": "head angle, 90° − tilt [rad]",
+    "trail": "trail along the ground [m]",
+    "offset": "fork offset, of the front axle ahead of the steering axis [m]",
+}
 OPTIONAL = {"g", "delta", "IByy", "IHyy", *RIDER_OPTIONAL}
 CHECKS = {"w": "positive", "g": "positive"} | {
     key: "non-negative" for key in MEIJAARD if key[0] in "mr" or (key[0] == "I" and not key.endswith("xz"))

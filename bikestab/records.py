@@ -5,19 +5,23 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NotRequired, TypedDict
 
+from bikestab.geometry import offset_of
 from bikestab.speeds import KINDS, REASONS, Intervals
 
 if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
+    from bikestab.machines import Machines
     from bikestab.modes import Modes
 
 
 class Design(TypedDict):
-    """A design: λ [rad], σ, head angle [°] and trail [m]."""
+    """A design: λ [rad], σ, head angle [°], trail [m] and fork offset [m], the paper's b."""
 
     lam: float
     sigma: float
     head_angle_deg: float
     trail: float
+    offset: float
 
 
 class Interval(TypedDict):
@@ -65,10 +69,16 @@ def verdict_record(found: Intervals, *cell: int) -> Verdict:
     return {"marginal": True, "reason": reason} if reason else {"marginal": False}
 
 
-def design_record(lam: Any, sigma: Any, wheelbase: Any) -> Design:
-    """A design by the words of tables and JSON, of floats; or several, of arrays."""
-    degrees = lam * (180 / math.pi)
-    return {"lam": lam, "sigma": sigma, "head_angle_deg": 90 - degrees, "trail": sigma * wheelbase}
+def design_record(lam: Any, sigma: Any, machine: Bicycle | Machines) -> Design:
+    """A design of a machine by the words of tables and JSON, of floats; or several, of arrays."""
+    offset = offset_of(lam, sigma, machine.c, machine.R2)
+    return {
+        "lam": lam,
+        "sigma": sigma,
+        "head_angle_deg": 90 - lam * (180 / math.pi),
+        "trail": sigma * machine.c,
+        "offset": float(offset) if isinstance(lam, float) else offset,
+    }
 
 
 def modes_record(modes: Modes) -> dict[str, Any]:

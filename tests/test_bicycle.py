@@ -107,7 +107,7 @@ def test_trail_or_sigma():
     assert make(sigma=0.08).sigma == 0.08
     assert (
         str(refused(PAPER, "trail", trail=0.1, sigma=0.1))
-        == "trail: trail and sigma are both given\ngive one of them"
+        == "trail: trail and sigma are both given, and differ: 0.1 m and 0.104 m\ngive one of them"
     )
 
 

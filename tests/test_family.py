@@ -55,8 +55,8 @@ def test_tables_are_those_of_single_machines(family, x, y):
         np.testing.assert_allclose(tables[..., i], expected, rtol=1e-12, atol=1e-13 * np.abs(expected).max())
         quick = family.quick_table(X[i], Y[i])
         np.testing.assert_allclose(quick, expected, rtol=1e-12, atol=1e-13 * np.abs(expected).max())
-        lam, sigma, c = family.geometry(X[i], Y[i])
-        assert (lam, sigma, c) == pytest.approx((machine.lam, machine.sigma, machine.c), rel=1e-14)
+        lam, sigma, found = family.geometry(X[i], Y[i])
+        assert (lam, sigma, found.c) == pytest.approx((machine.lam, machine.sigma, machine.c), rel=1e-14)
     np.testing.assert_array_equal(family.table(X[:, None], Y[:3]).shape, (5, 4, 20, 3))
     np.testing.assert_array_equal(family.table(X[:, None], Y)[:, :, np.arange(20), np.arange(20)], tables)
 

@@ -13,6 +13,7 @@ from bikestab.speeds import KINDS, REASONS
 from bikestab.stability import modes, stable_intervals
 
 PAPER = Bicycle.preset("dikarev1981")
+BENCHMARK = Bicycle.preset("meijaard2007")
 
 
 def test_intervals_of_each_cell():
@@ -44,11 +45,13 @@ def test_what_is_within_rounding():
 
 
 def test_design():
-    record = design_record(math.radians(18), 0.1, 1.02)
+    lam = math.radians(18)
+    record = design_record(lam, 0.1, BENCHMARK)
     assert record == {
-        "lam": math.radians(18), "sigma": 0.1, "head_angle_deg": pytest.approx(72), "trail": 0.1 * 1.02
+        "lam": lam, "sigma": 0.1, "head_angle_deg": pytest.approx(72), "trail": 0.1 * 1.02,
+        "offset": pytest.approx(0.35 * math.sin(lam) - 0.102 * math.cos(lam), abs=1e-16),
     }  # fmt: skip
-    arrays = design_record(np.radians([18.0, 20.0]), np.array([0.1, 0.2]), 1.02)
+    arrays = design_record(np.radians([18.0, 20.0]), np.array([0.1, 0.2]), BENCHMARK)
     assert arrays["head_angle_deg"][0] == record["head_angle_deg"]
 
 

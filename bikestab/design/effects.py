@@ -122,7 +122,7 @@ def sensitivity_record(found: Sensitivity) -> dict[str, Any]:
         "bicycle": found.bicycle.name,
         "model": found.model,
         "delta": found.bicycle.delta,
-        **design_record(found.lam, found.sigma, found.bicycle.c),
+        **design_record(found.lam, found.sigma, found.bicycle),
         "hold": found.hold,
         "intervals": [{**interval, "parameters": effects(found, k)} for k, interval in enumerate(intervals)],
         "tried": tried(found),

@@ -69,9 +69,9 @@ def judged_design(wanted: Wanted, x: Floats, pick: Pick = "widest", at: str = ""
         merit = np.where(hit, 1.0, 0.0)
     k = int(np.argmax(merit))
     some = bool(found.intervals.upper[0, k])
-    lam, sigma, wheelbase = (float(value) for value in wanted.family.geometry(*x))
+    lam, sigma, machine = wanted.family.geometry(*x)
     return {
-        **design_record(lam, sigma, wheelbase),
+        **design_record(float(lam), float(sigma), machine),
         "V1": float(V1[k]) if some else None,
         "V2": finite(V2[k]),
         "lower": KINDS[lower[k]] if some else None,

@@ -20,6 +20,7 @@ from bikestab.records import design_record
 from bikestab.speeds import KINDS, REASONS
 
 if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
     from bikestab.design.optimum import JudgedDesign
     from bikestab.modes import Modes
     from bikestab.region.curves import Curve
@@ -31,7 +32,7 @@ Columns = Mapping[str, tuple[str, str]]  # name → pyarrow's name of the type, 
 
 TABLES = {".csv": "", ".parquet": "pyarrow"}  # ending → package it needs
 _DESIGN = {"lam": ("float64", "rad"), "sigma": ("float64", "1"), "head_angle_deg": ("float64", "degree")}
-_DESIGN |= {"trail": ("float64", "m")}
+_DESIGN |= {"trail": ("float64", "m"), "offset": ("float64", "m")}
 _TEXT = ("string", "")
 INTERVALS: Columns = {
     **_DESIGN, "interval": ("int32", "1"), "V1": ("float64", "m/s"), "V2": ("float64", "m/s"),
@@ -65,7 +66,7 @@ def interval_blocks(volume: Volume) -> Iterator[Block]:
 
     In the order of λ, then σ, then V. Raises InputError where the volume is damaged.
     """
-    lam, sigma, c = volume.axis("lam"), volume.axis("sigma"), volume.bicycle.c
+    lam, sigma, bicycle = volume.axis("lam"), volume.axis("sigma"), volume.bicycle
     words = np.array(KINDS)
     for start in range(0, len(lam), _LAYER):
         part = slice(start, start + _LAYER)
@@ -73,7 +74,12 @@ def interval_blocks(volume: Volume) -> Iterator[Block]:
         i, j, k = np.nonzero(upper)
         numbers = {"interval": (k + 1).astype(np.int32), "V1": V1[i, j, k], "V2": V2[i, j, k]}
         kinds = {"lower": words[lower[i, j, k]], "upper": words[upper[i, j, k]]}
-        yield {**_designs(lam[part][i], sigma[j], c), **numbers, **kinds, **_bounds(volume, part, i, j, k)}
+        yield {
+            **_designs(lam[part][i], sigma[j], bicycle),
+            **numbers,
+            **kinds,
+            **_bounds(volume, part, i, j, k),
+        }
 
 
 def _bounds(volume: Volume, part: slice, i: Indices, j: Indices, k: Indices) -> Block:
@@ -85,8 +91,8 @@ def _bounds(volume: Volume, part: slice, i: Indices, j: Indices, k: Indices) -> 
     return {**errors, "marginal": np.array(REASONS)[volume.read("marginal", (part,))[i, j]]}
 
 
-def skeleton_blocks(curves: Sequence[Curve], wheelbase: float) -> Iterator[Block]:
-    """The rows of SKELETON: one per point of a traced curve; ``wheelbase`` in metres."""
+def skeleton_blocks(curves: Sequence[Curve], bicycle: Bicycle) -> Iterator[Block]:
+    """The rows of SKELETON: one per point of a curve traced in the designs of a bicycle."""
     for number, curve in enumerate(curves, 1):
         n = len(curve.x)
 
@@ -95,7 +101,7 @@ def skeleton_blocks(curves: Sequence[Curve], wheelbase: float) -> Iterator[Block
 
         yield {
             "curve": np.full(n, number, np.int32), "name": column(curve.name), "closes": column(curve.closes),
-            "point": np.arange(1, n + 1, dtype=np.int32), **_designs(curve.x, curve.y, wheelbase),
+            "point": np.arange(1, n + 1, dtype=np.int32), **_designs(curve.x, curve.y, bicycle),
             "V": curve.V, "start": column(curve.ends[0]), "end": column(curve.ends[1]),
         }  # fmt: skip
 
@@ -134,8 +140,8 @@ def sensitivity_blocks(records: Sequence[Mapping[str, Any]]) -> Iterator[Block]:
             yield {"bicycle": first[0], "interval": first[1], **columns}
 
 
-def _designs(lam: Floats, sigma: Floats, c: float | Floats) -> Block:
-    return cast("Block", design_record(lam, sigma, c))
+def _designs(lam: Floats, sigma: Floats, bicycle: Bicycle) -> Block:
+    return cast("Block", design_record(lam, sigma, bicycle))
 
 
 def save_table(columns: Columns, blocks: Iterable[Block], path: Path, about: Mapping[str, str]) -> None:

@@ -45,7 +45,7 @@ def export_skeleton(volume: Volume, paths: Paths) -> list[Curve]:
     lam, sigma, _ = _box(volume)
     curves = trace(Family(volume.bicycle, volume.model), lam, sigma)
     for path in paths:
-        save_table(SKELETON, skeleton_blocks(curves, volume.bicycle.c), Path(path), about(volume))
+        save_table(SKELETON, skeleton_blocks(curves, volume.bicycle), Path(path), about(volume))
     return curves
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from bikestab.arguments import design_of
 from bikestab.bicycle import Bicycle
@@ -29,15 +29,16 @@ class Answer(Design, Verdict):
 
 def stable_speeds(
     bicycle: Bicycle,
-    lam: Sequence[float] | None = None,
-    sigma: Sequence[float] | None = None,
+    lam: ArrayLike | None = None,
+    sigma: ArrayLike | None = None,
     *,
     model: Model = "refined",
     nearest: bool = True,
 ) -> list[Answer]:
     """The stable speeds at every combination of tilts [rad] and trails, those of one tilt after another.
 
-    Without them the bicycle's own are taken. Raises InputError as ``stability.stable_intervals``.
+    Arrays of two axes are not combined but broadcast together. Without them the bicycle's own are taken.
+    Raises InputError as ``stability.stable_intervals``.
     """
 
     def helps(lam: float, sigma: float) -> Nearest:
@@ -46,11 +47,14 @@ def stable_speeds(
 
         return nearest_stable(Family(bicycle, model), lam, sigma)
 
-    tilts, trails = (np.atleast_1d(values) for values in design_of(bicycle, lam, sigma))
-    found = stable_intervals(bicycle, tilts[:, np.newaxis], trails, model=model)
+    tilts, trails = design_of(bicycle, lam, sigma)
+    if tilts.ndim < 2 and trails.ndim < 2:
+        tilts = np.atleast_1d(tilts)[:, np.newaxis]
+    tilts, trails = np.broadcast_arrays(*np.atleast_2d(tilts, trails))
+    found = stable_intervals(bicycle, tilts, trails, model=model)
     answers: list[Answer] = []
     for i, j in np.ndindex(found.number.shape):
-        design = design_record(float(tilts[i]), float(trails[j]), bicycle.c)
+        design = design_record(float(tilts[i, j]), float(trails[i, j]), bicycle)
         intervals = interval_records(found, i, j)
         help_ = helps(design["lam"], design["sigma"]) if nearest and not intervals else None
         verdict = verdict_record(found, i, j)

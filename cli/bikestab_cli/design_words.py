@@ -71,7 +71,7 @@ def _table(wanted: Wanted, first: str, designs: dict[str, JudgedDesign]) -> str:
         ]
         width = f"{d['width']:.6f}" + ("*" if _is_cut(wanted, d) else " ")
         rate = "inf" if d["growth_rate"] is None else f"{d['growth_rate']:z.6f}"
-        columns = design_columns(d["lam"], d["sigma"], wanted.family.bicycle.c)
+        columns = design_columns(d)
         rows.append([name, *columns, *ends, width, rate, f"{d['V']:.4f}"])
     places = ["where", *(design["at"] for design in designs.values())]  # words, aligned to the left
     lines = table(head, rows).split("\n")

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from bikestab_cli.chosen import Given, design_chosen, design_options
 from bikestab_cli.options import (
     FILE,
     SPEEDS,
@@ -13,9 +14,7 @@ from bikestab_cli.options import (
     json_option,
     load_bicycle,
     machine_options,
-    tilt_option,
     told_as_options,
-    trail_option,
 )
 from bikestab_cli.output import print_json, tell_file
 
@@ -24,8 +23,7 @@ if TYPE_CHECKING:
 
 
 @click.command("eigen")
-@tilt_option
-@trail_option
+@design_options()
 @click.option(
     "--V",
     "speeds",
@@ -48,8 +46,7 @@ if TYPE_CHECKING:
 )
 @json_option
 def command(
-    lam: float | None,
-    sigma: float | None,
+    given: Given,
     speeds: list[float],
     bicycle_name: str,
     model: Model,
@@ -60,7 +57,7 @@ def command(
 ) -> None:
     """Print or draw the eigenvalues against speed.
 
-    At one tilt and trail, the bicycle's own without --lam or --sigma. Each mode is followed continuously.
+    At one tilt and trail, the bicycle's own where none is given. Each mode is followed continuously.
     Files are written in place of the table, and named on stdout. JSON is an object with what vrange says of
     one design and, at the speeds V, four branches with name, re and im at each.
 
@@ -75,12 +72,12 @@ def command(
     Examples:
       bikestab eigen --bicycle meijaard2007
       bikestab eigen --lam 0.2 --sigma 0.08 --V 0:10:11
+      bikestab eigen --head-angle 71deg --offset 45mm --V 0:20mph:5
       bikestab eigen --bicycle meijaard2007 --V 0:36km/h:361 -o modes.png --csv modes.csv
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
     from bikestab_cli.eigen_words import told
 
-    from bikestab.arguments import design_of
     from bikestab.export.tables import MODES, modes_blocks, save_csv
     from bikestab.records import design_record, interval_records, modes_record, verdict_record
     from bikestab.stability import modes, stable_intervals
@@ -93,10 +90,10 @@ def command(
         )
     check_files(csv_file, output)
     bicycle = load_bicycle(bicycle_name, delta)
+    tilt, trail = design_chosen(bicycle, given)
     with told_as_options():
-        tilt, trail = (float(value) for value in design_of(bicycle, lam, sigma))
         found = modes(bicycle, speeds, tilt, trail, model=model)
-    design = design_record(tilt, trail, bicycle.c)
+    design = design_record(tilt, trail, bicycle)
     stable = stable_intervals(bicycle, tilt, trail, model=model)
     intervals, verdict = interval_records(stable), verdict_record(stable)
     files = {}

@@ -23,7 +23,7 @@ def told(
     return "\n".join(
         [
             heading(bicycle, model) + "\n",
-            table(DESIGN_HEAD, [design_columns(design["lam"], design["sigma"], bicycle.c)]) + "\n",
+            table(DESIGN_HEAD, [design_columns(design)]) + "\n",
             *([*map(interval_words, intervals)] or ["no stable speed"]),
             *([f"marginal: {verdict['reason']}"] if verdict["marginal"] else []),
             meetings,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -35,12 +34,6 @@ class Quantity(click.ParamType):
             number = quantity(value, self.units)
         except InputError as error:
             self.fail(f"{error.problem}; {error.hint}", param, ctx)
-        if str(value).strip().endswith("deg") and math.pi / 4 < number < math.pi / 2:
-            tilt = f"{90 - math.degrees(number):g}deg"
-            click.echo(
-                f"note: --lam is the tilt from the vertical; for a head angle of {value} give {tilt}",
-                err=True,
-            )
         return number
 
 
@@ -204,11 +197,14 @@ def load_bicycle(name: str, delta: float | None) -> Bicycle:
 
 
 def warn(bicycle: Bicycle) -> None:
-    """Tell on stderr what was left out of a file, and what no rigid body can have."""
-    for text in bicycle.notes:
-        click.echo(f"note: {bicycle.name}: {text}", err=True)
-    for text in bicycle.warnings:
-        click.echo(f"warning: {bicycle.name}: {text}", err=True)
+    """Tell on stderr, once, what was left out of a file, and what no rigid body can have."""
+    told: set[str] = click.get_current_context().find_root().meta.setdefault("bikestab.told", set())
+    for kind, texts in (("note", bicycle.notes), ("warning", bicycle.warnings)):
+        for text in texts:
+            line = f"{kind}: {bicycle.name}: {text}"
+            if line not in told:
+                click.echo(line, err=True)
+            told.add(line)
 
 
 def check_files(*names: str | None) -> None:
@@ -229,7 +225,7 @@ def told_as_options(**others: str) -> Iterator[None]:
         if error.place or not error.key:
             raise
         name, hint = str(error.key[0]), error.hint
-        option = others.get(name, f"--{name}")
+        option = others.get(name, f"--{name.replace('_', '-')}")
         if hint.startswith("give one, for example "):
             example = hint.rpartition(" ")[2]
             problem = f"{error.problem}: give {option}, for example {option} {example}"

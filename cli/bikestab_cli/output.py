@@ -13,8 +13,9 @@ from bikestab.files import to_stdout
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
+    from bikestab.records import Design
 
-DESIGN_HEAD = ["lam [rad]", "head angle [°]", "sigma", "trail [m]"]
+DESIGN_HEAD = ["lam [rad]", "head [°]", "sigma", "trail [m]", "offset [m]"]
 
 
 def print_json(value: object) -> None:
@@ -53,14 +54,23 @@ def certain(value: float, error: float | None, most: int = 12, style: str = "f")
     return f"about {value:.6g}"
 
 
-def design_columns(lam: float, sigma: float, wheelbase: float) -> list[str]:
-    """λ, head angle, σ and trail as they stand in every table."""
-    return [f"{lam:.6g}", f"{90 - math.degrees(lam):.3f}", f"{sigma:.6g}", f"{sigma * wheelbase:.4f}"]
+def design_columns(design: Design) -> list[str]:
+    """λ, head angle, σ, trail and fork offset as they stand in every table."""
+    return [
+        f"{design['lam']:.6g}",
+        f"{design['head_angle_deg']:.3f}",
+        f"{design['sigma']:.6g}",
+        f"{design['trail']:.4f}",
+        f"{design['offset']:z.4f}",
+    ]
 
 
 def heading(bicycle: Bicycle, model: str) -> str:
     """What every table is of."""
-    return f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s"
+    context = click.get_current_context(silent=True)
+    default = context and context.get_parameter_source("bicycle_name") == click.core.ParameterSource.DEFAULT
+    whose = " (the paper's bicycle, as no --bicycle is given)" if default else ""
+    return f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s{whose}"
 
 
 def count(number: int, what: str) -> str:

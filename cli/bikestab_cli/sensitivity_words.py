@@ -38,9 +38,11 @@ def told(found: Sensitivity, record: Mapping[str, Any]) -> str:
 
 
 def _design(found: Sensitivity) -> str:
-    lam, head, sigma, trail = design_columns(found.lam, found.sigma, found.bicycle.c)
-    offset = found.values["offset"]
-    return f"λ = {lam} rad, σ = {sigma}\nhead angle {head}°, trail {trail} m, offset {offset:.4f} m"
+    from bikestab.records import design_record
+
+    design = design_record(found.lam, found.sigma, found.bicycle)
+    lam, head, sigma, trail, offset = design_columns(design)
+    return f"λ = {lam} rad, σ = {sigma}\nhead angle {head}°, trail {trail} m, offset {offset} m"
 
 
 def _ends(interval: Interval) -> str:

@@ -6,15 +6,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import click
-from bikestab_cli.options import (
-    ANGLES,
-    TRAILS,
-    json_option,
-    load_bicycle,
-    machine_options,
-    sd_option,
-    told_as_options,
-)
+from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_tilt, is_single
+from bikestab_cli.options import json_option, load_bicycle, machine_options, sd_option, told_as_options
 from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, print_json, table
 
 if TYPE_CHECKING:
@@ -27,18 +20,12 @@ MOST_SPREADS = 100  # designs at once
 
 
 @click.command("vrange")
-@click.option(
-    "--lam", type=ANGLES, metavar="ANGLE|RANGE", help="Tilt of the steering axis: 0.1, 18deg or 0.05:0.3:6."
-)
-@click.option(
-    "--sigma", type=TRAILS, metavar="NUMBER|RANGE", help="Trail divided by the wheelbase: 0.08 or 0:0.15:16."
-)
+@design_options(ranges=True)
 @machine_options
 @sd_option
 @json_option
 def command(
-    lam: list[float] | None,
-    sigma: list[float] | None,
+    given: Given,
     bicycle_name: str,
     model: Model,
     delta: float | None,
@@ -48,8 +35,10 @@ def command(
     """Print the stable speeds V1 < V < V2.
 
     The ends are exact roots, not read off a grid, and each is named: weave (an oscillation starts), capsize
-    (a slow fall starts), rest (V = 0) or unbounded. Without --lam or --sigma the bicycle's own are
+    (a slow fall starts), rest (V = 0) or unbounded. Without a tilt or a trail the bicycle's own are
     taken. A range START:STOP:NUM gives a table.
+
+    Two of head angle, trail and fork offset give the third; an offset alone keeps the bicycle's head angle.
 
     Printed digits are certain. JSON has a bound on each end, V1_error and V2_error, within which the true
     value for exactly these inputs lies, and says where rounding leaves open how many intervals there are or
@@ -70,16 +59,20 @@ def command(
       bikestab vrange --bicycle meijaard2007 --lam 20deg --json
       bikestab vrange --lam 0.1 --sigma 0.08 --delta 1
       bikestab vrange --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
+      bikestab vrange --head-angle 71deg --trail 55mm
+      bikestab vrange --bicycle meijaard2007 --head-angle 68deg:74deg:7 --offset 45mm
     """
     from bikestab_cli.spread_words import in_one_line
 
     from bikestab.region.answers import stable_speeds
 
     bicycle = load_bicycle(bicycle_name, delta)
-    single = all(values is None or len(values) == 1 for values in (lam, sigma))
+    lam, sigma = designs_chosen(bicycle, given)
+    single = is_single(given)
     with told_as_options():  # a table has no room for what is nearest
         answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=as_json or single)
     spreads = _spreads(answers, bicycle, model, *deviations)
+    doubt_tilt(min(answer["lam"] for answer in answers))
     if as_json:
         from bikestab.design.spread import plain
 
@@ -90,7 +83,7 @@ def command(
         print_json({"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "results": answers})
         return
     click.echo(heading(bicycle, model) + "\n")
-    click.echo(table([*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], _rows(answers, bicycle.c)))
+    click.echo(table([*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], _rows(answers)))
     for answer in answers:
         if answer["marginal"]:
             click.echo(f"marginal at {_design(answer)}: {answer['reason']}")
@@ -127,10 +120,10 @@ def _design(answer: Answer) -> str:
     return f"λ = {answer['lam']:.6g}, σ = {answer['sigma']:.6g}"
 
 
-def _rows(answers: list[Answer], wheelbase: float) -> list[list[str]]:
+def _rows(answers: list[Answer]) -> list[list[str]]:
     rows = []
     for result in answers:
-        design = design_columns(result["lam"], result["sigma"], wheelbase)
+        design = design_columns(result)
         for interval in result["intervals"]:
             V1 = f"{certain(interval['V1'], interval['V1_error'])} ({interval['lower']})"
             V2 = interval["upper"]

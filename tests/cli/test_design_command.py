@@ -20,7 +20,8 @@ KIND = {"enum": ["weave", "capsize", "rest", "unbounded", None]}
 DESIGN = {
     "type": "object",
     "properties": {
-        "lam": NUMBER, "sigma": NUMBER, "head_angle_deg": NUMBER, "trail": NUMBER, "V1": MAYBE, "V2": MAYBE,
+        "lam": NUMBER, "sigma": NUMBER, "head_angle_deg": NUMBER, "trail": NUMBER, "offset": NUMBER,
+        "V1": MAYBE, "V2": MAYBE,
         "lower": KIND, "upper": KIND, "width": {"type": "number", "minimum": 0}, "growth_rate": MAYBE,
         "V": NUMBER, "at": {"type": "string"},
     },
@@ -72,8 +73,8 @@ def test_table(design, monkeypatch):
         "decay: growth rate at 5 m/s",
     ]
     assert lines[5].split() == [
-        "own", "0.314159", "72.000", "0.0784314", "0.0800", "4.292383", "(weave)", "6.024262", "(capsize)",
-        "1.731879", "-0.322866", "5.0000",
+        "own", "0.314159", "72.000", "0.0784314", "0.0800", "0.0321", "4.292383", "(weave)",
+        "6.024262", "(capsize)", "1.731879", "-0.322866", "5.0000",
     ]  # fmt: skip
     assert [line[:15].strip() for line in lines[5:9]] == [
         "own", "widest interval", "lowest V1", "fastest decay",

@@ -58,7 +58,10 @@ def results(vrange, *args):
 def test_a_head_angle_in_place_of_the_tilt(bikestab):
     code, _, err = bikestab("vrange", "--bicycle", "meijaard2007", "--lam", "72deg")
     assert code == 0
-    assert err == "note: --lam is the tilt from the vertical; for a head angle of 72deg give 18deg\n"
+    assert err == (
+        "warning: λ = 72° is a head angle of 18°: lam is the tilt from the vertical; "
+        "for a head angle of 72° give lam = 18deg, or head_angle\n"
+    )
     assert bikestab("vrange", "--bicycle", "meijaard2007", "--lam", "18deg")[2] == ""
 
 
@@ -68,7 +71,7 @@ def test_the_benchmark_to_twelve_digits(vrange):
     head, row = out.splitlines()[-2:]
     assert head.split("  ")[0] == "lam [rad]"
     assert row.split() == [
-        "0.314159", "72.000", "0.0784314", "0.0800",
+        "0.314159", "72.000", "0.0784314", "0.0800", "0.0321",
         "4.292382536341", "(weave)", "6.024262015388", "(capsize)",
     ]  # fmt: skip
 
@@ -78,7 +81,16 @@ def test_json(vrange):
     assert list(found) == ["bicycle", "model", "delta", "results"]
     assert (found["bicycle"], found["model"], found["delta"]) == ("dikarev1981", "refined", 0.0)
     (result,) = found["results"]
-    assert list(result) == ["lam", "sigma", "head_angle_deg", "trail", "intervals", "marginal", "nearest"]
+    assert list(result) == [
+        "lam",
+        "sigma",
+        "head_angle_deg",
+        "trail",
+        "offset",
+        "intervals",
+        "marginal",
+        "nearest",
+    ]
     assert result["marginal"] is False
     assert (result["lam"], result["sigma"], result["nearest"]) == (0.2, 0.08, None)
     assert result["head_angle_deg"] == pytest.approx(90 - math.degrees(0.2))
@@ -199,7 +211,8 @@ def test_damping_and_model(vrange):
     plain = results(vrange, "--lam", "0.2", "--sigma", "0.08")
     assert damped["results"][0]["intervals"] != plain["results"][0]["intervals"]
     _, out, _ = vrange("--lam", "0.2", "--sigma", "0.08", "--delta", "2")
-    assert out.startswith("dikarev1981, refined model, damping 2 kg m²/s\n")
+    heading = "dikarev1981, refined model, damping 2 kg m²/s (the paper's bicycle, as no --bicycle is given)"
+    assert out.splitlines()[0] == heading
 
 
 def test_a_bicycle_of_ones_own(vrange, tmp_path):
@@ -297,3 +310,38 @@ def test_no_slow_import(args):
         [sys.executable, "-c", script], capture_output=True, text=True, env=os.environ | {"PYTHONUTF8": "1"}
     )
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(
+    "two",
+    [
+        ("--head-angle", "71deg", "--trail", "55mm"),
+        ("--head-angle", "71deg", "--offset", "61.9453mm"),
+        ("--trail", "5.5cm", "--offset", "6.19453cm"),
+        ("--lam", "19deg", "--head-angle", "71deg", "--trail", "0.055", "--offset", "61.9mm"),
+    ],
+)
+def test_what_builders_measure(vrange, two):
+    """B = 0.35 sin 19° − 0.055 cos 19° = 61.945 mm, so any two of the three are one design."""
+    (result,) = results(vrange, *two)["results"]
+    assert list(result)[:5] == ["lam", "sigma", "head_angle_deg", "trail", "offset"]
+    assert result["head_angle_deg"] == pytest.approx(71, abs=1e-4)
+    assert result["trail"] == pytest.approx(0.055, abs=1e-6)
+    assert result["offset"] == pytest.approx(0.061945, abs=1e-5)
+
+
+def test_ranges_of_what_builders_measure(vrange):
+    found = results(vrange, "--head-angle", "70deg:72deg:3", "--offset", "40mm:50mm:2")["results"]
+    assert [(r["head_angle_deg"], r["offset"]) for r in found] == [
+        (pytest.approx(angle), pytest.approx(offset)) for angle in (70, 71, 72) for offset in (0.04, 0.05)
+    ]
+    alone = results(vrange, "--bicycle", "meijaard2007", "--offset", "0:80mm:5")["results"]
+    assert {r["head_angle_deg"] for r in alone} == {72}
+    assert [r["offset"] for r in alone] == pytest.approx([0, 0.02, 0.04, 0.06, 0.08], abs=1e-12)
+
+
+def test_three_that_contradict(bikestab):
+    words = ("--head-angle", "72deg", "--offset", "45mm", "--trail", "50mm")
+    code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", *words)
+    assert (code, out) == (2, "")
+    assert "offset of 45 mm give a trail of 66.4061 mm, not 50 mm; give two of" in err

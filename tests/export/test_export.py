@@ -348,7 +348,7 @@ def test_parquet_holds_the_same(volume, tmp_path):
     table = parquet.read_table(tmp_path / "i.parquet")
     assert table.column_names == list(INTERVALS)
     assert [str(kind) for kind in table.schema.types] == [
-        *["double"] * 4, "int32", "double", "double", "string", "string", "double", "double", "string",
+        *["double"] * 5, "int32", "double", "double", "string", "string", "double", "double", "string",
     ]  # fmt: skip
     assert math.inf in table["V2"].to_pylist()
     assert [{k: as_text(v) for k, v in row.items()} for row in table.to_pylist()] == read_csv(
@@ -400,7 +400,7 @@ def test_skeleton_is_every_point_of_every_curve(tmp_path):
               ("box", "fold"))
     )  # fmt: skip
     for ending in (".csv", ".parquet"):
-        save_table(SKELETON, skeleton_blocks(curves, bicycle.c), tmp_path / f"s{ending}", ABOUT)
+        save_table(SKELETON, skeleton_blocks(curves, bicycle), tmp_path / f"s{ending}", ABOUT)
     rows = read_csv(tmp_path / "s.csv")
     table = parquet.read_table(tmp_path / "s.parquet")
     assert [{k: as_text(v) for k, v in row.items()} for row in table.to_pylist()] == rows
@@ -418,7 +418,9 @@ def test_skeleton_is_every_point_of_every_curve(tmp_path):
 
 def test_empty_tables_have_a_head(tmp_path):
     for ending in (".csv", ".parquet"):
-        save_table(SKELETON, skeleton_blocks([], 1.0), tmp_path / f"s{ending}", ABOUT)
+        save_table(
+            SKELETON, skeleton_blocks([], Bicycle.preset("dikarev1981")), tmp_path / f"s{ending}", ABOUT
+        )
     assert (tmp_path / "s.csv").read_text() == ",".join(SKELETON) + "\n"
     table = parquet.read_table(tmp_path / "s.parquet")
     assert (table.num_rows, table.column_names) == (0, list(SKELETON))
