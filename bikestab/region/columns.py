@@ -111,3 +111,12 @@ class Columns:
                 near = gap.min(initial=np.inf) <= (0.0 if kind == NONE else most)
                 V[side, k] = own[np.argmin(gap)] if near else np.nan
         return V
+
+    def touching(self, sides: Index, structure: Index, near: float) -> NDArray[np.bool_]:
+        """Whether two successive ends of intervals are within ``near`` [m/s] at both ends of sides (n, 2)."""
+        records = self.record[sides, structure[:, np.newaxis]]
+        ends = self.V[:, records].transpose(1, 2, 3, 0).reshape(len(sides), 2, 2 * self.V.shape[2])
+        gaps = np.diff(ends, axis=2)  # ascending, then zeros
+        exist = np.arange(1, ends.shape[2]) < 2 * number_of(self.codes[structure])[:, np.newaxis]
+        touch = np.logical_and.reduce(gaps < near, axis=1) & exist
+        return np.logical_or.reduce(touch, axis=1)

@@ -10,7 +10,7 @@ from scipy.optimize import elementwise
 from bikestab.model import Floats
 
 Function = Callable[[Floats], Floats]  # points (2, n) → values (n,)
-_ROUNDS = 4  # of Newton's method: from a grid's step to rounding
+ROUNDS = 4  # of Newton's method: from a grid's step to rounding
 _HALVINGS = 60
 
 
@@ -45,16 +45,18 @@ def _halved(function: Function, a: Floats, b: Floats) -> Floats:
     return b
 
 
-def across(function: Function, points: Floats, along: Floats, most: float) -> Floats:
+def across(function: Function, points: Floats, along: Floats, most: float, rounds: int = ROUNDS) -> Floats:
     """Points (2, n) near a curve moved onto it, across the directions ``along`` and by ``most`` in a step.
 
     Lengths are measured by those directions' own: a slope is taken over a thousandth of them.
     """
     length = np.hypot(*along)
     aside = np.array([-along[1], along[0]]) / length
-    h = 1e-3 * length
-    for _ in range(_ROUNDS):
-        here, above, below = (function(points + step * aside) for step in (0.0, h, -h))
+    h = np.broadcast_to(1e-3 * length, points.shape[1:])
+    steps = np.array([np.zeros_like(h), h, -h])
+    for _ in range(rounds):
+        places = points[:, np.newaxis] + steps * aside[:, np.newaxis]
+        here, above, below = function(places.reshape(2, -1)).reshape(steps.shape)
         with np.errstate(divide="ignore", invalid="ignore"):
             move = 2 * h * here / (above - below)
         points = points - np.where(np.abs(move) < most, move, 0.0) * aside
@@ -69,7 +71,7 @@ def downhill(function: Function, points: Floats, units: tuple[float, float]) -> 
     size = np.array(units)[:, np.newaxis]
     h = 1e-4 * size
     u, v = (h * np.array([[1.0], [0.0]]), h * np.array([[0.0], [1.0]]))
-    for _ in range(_ROUNDS - 1):
+    for _ in range(ROUNDS - 1):
         here = function(points)
         slope = np.array([function(points + step) - function(points - step) for step in (u, v)]) / 2e-4
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -104,13 +104,11 @@ def _cut(plane: Partition, sides: Index, number: Index) -> None:
     plane.structure = np.append(np.delete(plane.structure, old), structure)
 
 
-def _look(box: Box, plane: Partition, start: Index, goal: Index, far: float = _BESIDE) -> Ends:
-    """Note the structures of the points ``start`` just beside them, ``far`` towards the points ``goal``."""
+def _look(box: Box, plane: Partition, start: Index, goal: Index) -> None:
+    """Note the structures of the points ``start`` just beside them, towards the points ``goal``."""
     way = plane.points[:, goal] - plane.points[:, start]
-    places = plane.points[:, start] + way * (far / np.hypot(*way))
-    ends = ends_at(box, places)
-    plane.columns.add(start, ends, places)
-    return ends
+    places = plane.points[:, start] + way * (_BESIDE / np.hypot(*way))
+    plane.columns.add(start, ends_at(box, places), places)
 
 
 def _crossings(box: Box, plane: Partition, sides: Index) -> Index:
@@ -119,25 +117,46 @@ def _crossings(box: Box, plane: Partition, sides: Index) -> Index:
     A side may need more than one, then the rest follows in the next round.
     """
     number = np.full(len(sides), -1)
-    open_ = np.arange(len(sides))
-    for far in (_BESIDE, _SAME):
-        here = _look(box, plane, sides[open_, 0], sides[open_, 1], far)
-        _look(box, plane, sides[open_, 1], sides[open_, 0], far)
-        still = ~plane.share(sides[open_])
-        open_, code = open_[still], here.code[still]
+    code, shared = _looked(box, plane, sides)
+    open_ = np.flatnonzero(~shared)
     # between two curves the middle: their crossing is reached by halving, not by steps from curve to curve
     both = (np.count_nonzero(plane.columns.has()[sides[open_]], axis=2) > 1).all(axis=1)
     number[open_[both]] = _middles(box, plane, sides[open_[both]])
-    open_, code = open_[~both], code[~both]
+    open_ = open_[~both]
+    if not len(open_):
+        return number
     start, goal = plane.points[:, sides[open_].T].swapaxes(0, 1)
     way = goal - start
     length = np.hypot(*way)
-    before, behind = _change(box, code, start, way, _SAME / length)
+    before, behind = _change(box, code[open_], start, way, _SAME / length)
     number[open_] = m = plane.add(start + behind * way)
-    for where in (before, np.minimum(behind + _BESIDE / length, 1 - _SAME / length)):
-        places = start + where * way
-        plane.columns.add(m, ends_at(box, places), places)
+    behind = np.minimum(behind + _BESIDE / length, 1 - _SAME / length)
+    places = np.concatenate([start + before * way, start + behind * way], axis=1)
+    plane.columns.add(np.tile(m, 2), ends_at(box, places), places)
     return number
+
+
+def _looked(box: Box, plane: Partition, sides: Index) -> tuple[Index, NDArray[np.bool_]]:
+    """Note the structures just beside both ends of sides (n, 2), until they have one in common.
+
+    Returns the last one seen at each first end, and whether the ends now have.
+    """
+    start, goal = plane.points[:, sides.T].swapaxes(0, 1)
+    way = (goal - start) / np.hypot(*(goal - start))
+    places = np.array(
+        [end + sign * far * way for far in (_BESIDE, _SAME) for end, sign in ((start, 1), (goal, -1))]
+    )
+    ends = ends_at(box, places.swapaxes(0, 1).reshape(2, -1))
+    V, codes = ends.V.reshape(2, 4, len(sides), -1), ends.code.reshape(4, -1)
+    shared = np.zeros(len(sides), bool)
+    for i in (0, 2):
+        still = ~shared
+        for j in (0, 1):
+            plane.columns.add(
+                sides[still, j], Ends(V[:, i + j, still], codes[i + j, still]), places[i + j][:, still]
+            )
+        shared = plane.share(sides)
+    return codes[2], shared
 
 
 def _change(box: Box, code: Index, start: Floats, way: Floats, t: Floats) -> tuple[Floats, Floats]:
@@ -216,20 +235,8 @@ def _part(box: Box, plane: Partition) -> bool:
     beside = plane.structure[order[first[inside, np.newaxis] + [0, 1]] // 3]
     chosen = (beside[:, 0] == beside[:, 1]) & (number_of(columns.codes[beside[:, 0]]) > 0)
     inside, structure = inside[chosen], beside[chosen, 0]
-    touching = _touching(box, columns, sides[inside], structure)
+    touching = columns.touching(sides[inside], structure, _TOUCH * (box.V[1] - box.V[0]))
     inside, structure = inside[touching], structure[touching]
     m = _middles(box, plane, sides[inside])
     _cut(plane, sides[inside], m)
     return bool((columns.record[m, structure] < 0).any())
-
-
-def _touching(box: Box, columns: Columns, sides: Index, structure: Index) -> NDArray[np.bool_]:
-    """Whether two successive ends of intervals meet at both ends of a side."""
-    records = columns.record[sides, structure[:, np.newaxis]]
-    ends = (
-        columns.V[:, records].transpose(1, 2, 3, 0).reshape(len(sides), 2, 2 * columns.V.shape[2])
-    )  # ascending, then zeros
-    gaps = np.diff(ends, axis=2)
-    exist = np.arange(1, ends.shape[2]) < 2 * number_of(columns.codes[structure])[:, np.newaxis]
-    touch = np.logical_and.reduce(gaps < _TOUCH * (box.V[1] - box.V[0]), axis=1) & exist
-    return np.logical_or.reduce(touch, axis=1)

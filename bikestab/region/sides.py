@@ -31,8 +31,9 @@ def sides(table: Floats, names: Sequence[CurveName]) -> dict[CurveName, Floats]:
         "meet": lambda: _at_capsize(q, p0),
         "slow meet": lambda: _at_capsize(p1, p0),
     }
-    plain = curve_functions(table, [name for name in names if name not in damped])
-    return {name: damped[name]() if name in damped else plain[name] for name in names}
+    plain = [name for name in names if name not in damped]
+    values = curve_functions(table, plain) if plain else {}
+    return {name: damped[name]() if name in damped else values[name] for name in names}
 
 
 def _folded(weave: Floats) -> Floats:

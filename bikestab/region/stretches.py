@@ -10,7 +10,7 @@ import numpy as np
 
 from bikestab.model import Floats
 from bikestab.region.events import Box, event_at
-from bikestab.region.onto import across
+from bikestab.region.onto import ROUNDS, across
 from bikestab.region.pieces import HOP, NAMES, Curve
 from bikestab.region.skeleton import CurveName
 
@@ -61,11 +61,17 @@ def _left(box: Box, key: CurveName, run: Floats, side: int) -> str:
 def _end(box: Box, key: CurveName, inside: Floats, outside: Floats, state: int) -> tuple[str, Floats]:
     """Where, between two points of a curve, its event changes from ``state``; and what it meets there."""
     a, b = inside, outside
+    rounds = ROUNDS
     while np.abs(b - a).max() > 1e-15:
         points = a[:, np.newaxis] + (b - a)[:, np.newaxis] * np.linspace(0, 1, _SECTIONS + 1)
         points[:, 1:-1] = across(
-            partial(box.value, key), points[:, 1:-1], (b - a)[:, np.newaxis], float(np.hypot(*(b - a)))
+            partial(box.value, key),
+            points[:, 1:-1],
+            (b - a)[:, np.newaxis],
+            float(np.hypot(*(b - a))),
+            rounds,
         )
+        rounds = 1  # a chord of a section is by a factor of its square nearer to the curve
         same = event_at(box, key, points).state == state
         last = _SECTIONS - 1 if same.all() else max(int(np.argmin(same)) - 1, 0)
         if np.abs(points[:, last + 1] - points[:, last]).max() >= np.abs(b - a).max():
