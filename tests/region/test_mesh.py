@@ -118,7 +118,7 @@ def test_sheets_are_the_ends_of_the_intervals(case):
         index = np.setdiff1d(mesh.triangles[(mesh.upper == upper) & ~mesh.wall], shared)
         points = mesh.points[index]
         points = points[np.all((points > np.array(ends)[:, 0]) & (points < np.array(ends)[:, 1]), axis=1)]
-        found = intervals_of(characteristic_table(bicycle, points[:, 0], points[:, 1]))
+        found = intervals_of(Family(bicycle).table(points[:, 0], points[:, 1]))
         gap = np.nanmin(np.abs((found.V2 if upper else found.V1) - points[:, 2:]), axis=1)
         assert np.mean(gap == 0) > 0.9  # the others are on a curve where two sheets change places
         assert gap.max() < 1e-6
@@ -149,7 +149,7 @@ def test_decay_is_the_lowest_growth_rate_of_the_interval(case):
     shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
     single = np.setdiff1d(mesh.triangles[mesh.upper], shared)[::97]
     for lam, sigma, V2 in mesh.points[single]:
-        found = intervals_of(characteristic_table(bicycle, lam, sigma))
+        found = intervals_of(Family(bicycle).table(lam, sigma))
         k = int(np.nanargmin(np.abs(found.V2 - V2)))
         V = np.linspace(max(found.V1[k], ends[2][0]), V2, 33)
         lowest = eigenvalues(bicycle, np.column_stack([np.full_like(V, lam), np.full_like(V, sigma), V]))
