@@ -124,6 +124,11 @@ def sensitivity_record(found: Sensitivity) -> dict[str, Any]:
         "delta": found.bicycle.delta,
         **design_record(found.lam, found.sigma, found.bicycle),
         "hold": found.hold,
+        "best": {
+            **found.best._asdict(),
+            "value": finite(found.best.value),
+            "slope": {name: finite(x) for name, x in found.best.slope.items()},
+        },
         "intervals": [{**interval, "parameters": effects(found, k)} for k, interval in enumerate(intervals)],
         "tried": tried(found),
     }

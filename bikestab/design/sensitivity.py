@@ -14,6 +14,7 @@ import numpy as np
 
 from bikestab.arguments import Given, design_of
 from bikestab.bicycle import PAPER, Bicycle
+from bikestab.design.rates import Rate, best_rate
 from bikestab.errors import InputError, nearest
 from bikestab.model import Floats, Model
 from bikestab.notation import MEIJAARD
@@ -42,7 +43,8 @@ class Sensitivity:
     of the bicycle's notation, and those of GEOMETRY. Where there is no derivative it is NaN: of an unbounded
     end, and by the spin of a skate, which cannot have one. ``hold`` is what of the front stays where another
     parameter varies, tilt and head angle too: the trail, the fork's offset, or σ. These three themselves are
-    varied with all others as they are.
+    varied with all others as they are. ``best`` is the lowest growth rate over the speeds up to 30 m/s:
+    its ``value`` [1/s], the speed ``V`` [m/s], and its ``slope`` by each name.
 
     >>> import bikestab as bs
     >>> frame = bs.sensitivity(bs.Bicycle.preset("meijaard2007"), hold="offset")
@@ -61,6 +63,7 @@ class Sensitivity:
     meanings: dict[str, str]
     dV1: dict[str, Floats]
     dV2: dict[str, Floats]
+    best: Rate
 
     def elasticity(self, name: str) -> tuple[Floats, Floats]:
         """The d ln V1/d ln p and d ln V2/d ln p (interval,): per cent of a speed for one per cent of p."""
@@ -137,9 +140,12 @@ def sensitivity(
     ]
     values, units, meanings = described(machine, tilt, trail)
     dV1, dV2 = ({name: np.array([end[name] for end in of]) for name in values} for of in ends)
+    best = best_rate(slopes)
+    rates = held(machine, tilt, trail, hold, best.slope | skates(machine))
+    best = best._replace(slope={name: rates[name] for name in values})
     return Sensitivity(
         bicycle=machine, lam=tilt, sigma=trail, model=model, hold=hold, intervals=intervals,
-        values=values, units=units, meanings=meanings, dV1=dV1, dV2=dV2,
+        values=values, units=units, meanings=meanings, dV1=dV1, dV2=dV2, best=best,
     )  # fmt: skip
 
 

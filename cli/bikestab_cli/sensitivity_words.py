@@ -33,6 +33,7 @@ def told(found: Sensitivity, record: Mapping[str, Any]) -> str:
         parts.append(_words(rows))
     if not record["intervals"]:
         parts.append("no stable speed, and so no end of one to move; 'bikestab vrange' says what is nearest")
+    parts.append(_decay(found))
     parts.append("computed anew, not by derivatives:\n" + _tried(record["tried"], record["intervals"]))
     return "\n\n".join(part for part in parts if part)
 
@@ -95,6 +96,20 @@ def _gain(row: Row) -> float | None:
     if row["dV1"] is None or row["dV2"] is None:
         return None
     return 0.01 * abs(row["value"]) * (row["dV2"] - row["dV1"]) * math.copysign(1, row["value"])
+
+
+def _decay(found: Sensitivity) -> str:
+    """The lowest growth rate, and what moves it most."""
+    best = found.best
+    known = [name for name in found.values if name in found.bicycle.notation and name != "trail"]
+    effects = {name: 0.01 * best.slope[name] * abs(found.values[name]) for name in known}
+    moving = {name: effect for name, effect in effects.items() if effect and math.isfinite(effect)}
+    names = sorted(moving, key=lambda name: -abs(moving[name]))[:_NAMES]
+    return (
+        f"lowest growth rate: {best.value:.6g} 1/s at {best.V:.6g} m/s; it changes with 1 % more of\n"
+        + ", ".join(f"{name} {moving[name]:+.2g}" for name in names)
+        + " 1/s"
+    )
 
 
 def _tried(results: Sequence[Tried], own: Sequence[Interval]) -> str:
