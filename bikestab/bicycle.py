@@ -189,13 +189,15 @@ class Bicycle:
     @classmethod
     def from_file(cls, path: str | Path) -> Bicycle:
         """A bicycle from a file that ``bikestab.formats`` reads; InputError names file, line and key."""
-        from bikestab.formats.reading import read  # what comes with the package needs no reader
+        from bikestab.formats.kinds import expected  # what comes with the package needs no reader
+        from bikestab.formats.reading import read
 
-        found = read(path)
-        try:
-            bicycle = cls.from_mapping(found.values, name=Path(path).stem)
-        except InputError as error:
-            raise found.located(error) from None
+        with expected("bicycle", path):
+            found = read(path)
+            try:
+                bicycle = cls.from_mapping(found.values, name=Path(path).stem)
+            except InputError as error:
+                raise found.located(error) from None
         return bicycle.measured(found.deviations, found.correlations, found.notes)
 
     @classmethod

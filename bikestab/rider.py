@@ -53,7 +53,7 @@ def flattened(values: Mapping[Any, Any]) -> dict[Any, Any]:
     return flat | inner
 
 
-def nested(numbers: Mapping[str, float]) -> dict[str, Any]:
+def nested(numbers: Mapping[str, Any]) -> dict[str, Any]:
     """The numbers with those of the rider in a mapping of its own, as files have them."""
     rider = {key.partition(".")[2]: value for key, value in numbers.items() if key in RIDER}
     rest: dict[str, Any] = {key: value for key, value in numbers.items() if key not in RIDER}

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError, nearest
 from bikestab.fields import FIELDS, Axis
+from bikestab.formats.kinds import expected
 from bikestab.hdf5 import open_file, text_of
 from bikestab.layout import check_values, machine_names, sweep_names
 from bikestab.model import Floats, Model
@@ -39,8 +40,9 @@ class Volume:
     def __init__(self, path: str | Path) -> None:
         self.path = _found(Path(path))
         try:
-            watched(partial(check_volume, self.path))
-            self.file = open_file(self.path)
+            with expected("volume", self.path):
+                watched(partial(check_volume, self.path))
+                self.file = open_file(self.path)
         except InputError as error:
             raise error.at(str(path)) from None
         self.swept: dict[str, Floats] = {name: self.file[name][()] for name in sweep_names(self.file)}

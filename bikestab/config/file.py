@@ -15,6 +15,7 @@ from bikestab.config.scanconfig import Expectation, Plane, ScanConfig
 from bikestab.config.variation import Distribution, Ensemble
 from bikestab.errors import InputError, dotted, nearest
 from bikestab.fields import AXES
+from bikestab.formats.kinds import expected
 from bikestab.rider import flattened
 from bikestab.units import shown
 
@@ -24,8 +25,8 @@ def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
 
     Raises InputError naming file, line, key, value and what is allowed.
     """
-    document = yamltext.read(path)
-    return parse_config(document, overrides)
+    with expected("config", path):
+        return parse_config(yamltext.read(path), overrides)
 
 
 def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> ScanConfig:

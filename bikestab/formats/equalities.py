@@ -76,14 +76,14 @@ def parse(text: str, file: str) -> Equalities:
             problem = f"given twice, first in line {entries[key].line}"
             raise InputError(problem, key=(key,), place=place, hint="keep one of them")
         try:
-            entries[key] = Measured(*_mean(match["value"], key), number)
+            entries[key] = Measured(*mean(match["value"], key), number)
         except InputError as error:
             raise error.at(place) from None
     return Equalities(file, entries)
 
 
-def _mean(text: str, key: str) -> tuple[float | str, float]:
-    """The mean of values behind commas, and its standard deviation."""
+def mean(text: str, key: str) -> tuple[float | str, float]:
+    """The mean of values behind commas, and its standard deviation; InputError, with the key, for none."""
     pairs = [_measured(part, key) for part in text.split(",")]
     if len(pairs) == 1:
         return pairs[0]

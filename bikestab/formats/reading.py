@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.formats import equalities
+from bikestab.formats import equalities, measured
 from bikestab.formats.extras import without_extras
 from bikestab.formats.found import Found
+from bikestab.formats.kinds import expected
+from bikestab.rider import flattened
 from bikestab.texts import read_text
 
-ENDINGS = (".yaml", ".yml", ".txt", ".ini")
 WORDS = ("parameterization", "parameters", "rider", "description")  # beside ``values`` in a parameter set
+_OF_RIDER = {"mB": "rider.m", "xB": "rider.x", "zB": "rider.z"}
+_OF_RIDER |= {f"IB{axes}": f"rider.I{axes}" for axes in ("xx", "yy", "zz", "xz")}
 Located: TypeAlias = Callable[[InputError], InputError]
 
 
@@ -25,8 +28,34 @@ def read(path: str | Path) -> Found:
     return _from_equalities(text, file) if equalities.looks_like(text) else _from_yaml(text, file)
 
 
+def read_rider(path: str | Path) -> Found:
+    """The rider in a file of BicycleParameters, named ``rider.m`` and so on; its keys there are B's."""
+    with expected("rider", path):
+        found = equalities.parse(read_text(path), str(path))
+        values, notes = _settled(found.values, found.located)
+        names = {key: _OF_RIDER[key] for key in values if key in _OF_RIDER}
+        for key in values:
+            if key not in names:
+                hint = f"known: {', '.join(_OF_RIDER)}"
+                raise found.located(InputError("is no parameter of a rider", key=(key,), hint=hint))
+    keys = {ours: theirs for theirs, ours in names.items()}
+
+    def located(error: InputError) -> InputError:
+        their = [keys.get(str(part), part) for part in error.key]
+        return found.located(InputError(error.problem, key=their, hint=error.hint, place=error.place))
+
+    deviations = {names[key]: sd for key, sd in found.deviations.items() if key in names}
+    return Found({names[key]: values[key] for key in names}, located, deviations, notes=tuple(notes))
+
+
 def _from_equalities(text: str, file: str) -> Found:
     found = equalities.parse(text, file)
+    if measured.looks_like(found.entries):
+        try:
+            reduced = measured.reduce(found.entries)
+        except InputError as error:
+            raise found.located(error) from None
+        return Found(reduced.values, found.located, reduced.deviations, reduced.correlations)
     values, notes = _settled(found.values, found.located)
     deviations = {key: sd for key, sd in found.deviations.items() if key in values}
     return Found(values, found.located, deviations, notes=tuple(notes))
@@ -41,8 +70,7 @@ def _from_yaml(text: str, file: str) -> Found:
         located = lambda error: yamltext.parse(text, file).located(error)  # noqa: E731  # parsed for its lines alone
     if isinstance(data.get("values"), dict):
         return _from_parameter_set(data, located)
-    values, notes = _settled(data, located)
-    return Found(values, located, notes=tuple(notes))
+    return _of_mapping(data, located)
 
 
 def _from_parameter_set(data: Any, located: Located) -> Found:
@@ -56,12 +84,38 @@ def _from_parameter_set(data: Any, located: Located) -> Found:
             raise located(
                 InputError("unknown key", key=(str(key),), hint=nearest(str(key), ("values", *WORDS)))
             )
-    values, notes = _settled(data["values"], inside)
-    return Found(values, inside, notes=tuple(notes))
+    return _of_mapping(data["values"], inside)
+
+
+def _of_mapping(data: Mapping[Any, Any], located: Located) -> Found:
+    """The values, of which text such as ``85 +/- 0.5`` has a standard deviation."""
+    values, notes = _settled(data, located)
+    flat, deviations = values, {}
+    if any(_uncertain(value) for value in (*values.values(), *_inner(values))):
+        try:
+            flat = flattened(values)
+            for key, value in flat.items():
+                if _uncertain(value):
+                    flat[key], deviations[key] = equalities.mean(value, key)
+        except InputError as error:
+            raise located(error) from None
+    return Found(flat, located, {key: sd for key, sd in deviations.items() if sd}, notes=tuple(notes))
+
+
+def _inner(values: Mapping[Any, Any]) -> Iterable[Any]:
+    rider = values.get("rider")
+    return rider.values() if isinstance(rider, Mapping) else ()
+
+
+def _uncertain(value: Any) -> bool:
+    return isinstance(value, str) and any(sign in value for sign in ("+/-", "±", "+-"))
 
 
 def _settled(values: Mapping[Any, Any], located: Located) -> tuple[dict[Any, Any], list[str]]:
     try:
-        return without_extras(values)
+        kept, notes = without_extras(values)
     except InputError as error:
         raise located(error) from None
+    if values and not kept:
+        raise located(InputError(f"has no parameter of a bicycle: {', '.join(map(str, values))}"))
+    return kept, notes

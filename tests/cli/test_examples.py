@@ -10,6 +10,9 @@ import click
 import pytest
 from bikestab_cli.main import COMMANDS, cli, main
 
+from bikestab.bicycle import Bicycle
+from tests.formats.test_kinds import RIDER
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -45,8 +48,15 @@ PAGES = [page for page in (ROOT / "README.md", *ROOT.glob("docs/*.md")) if from_
 
 @pytest.fixture
 def run(tmp_path, monkeypatch, capsys):
-    """Run lines one after the other in a folder with the configs; the first that fails is told."""
+    """Run lines one after the other in a folder with the configs; the first that fails is told.
+
+    The reader's own files are there too: a measured bicycle and a rider.
+    """
     shutil.copytree(ROOT / "configs", tmp_path / "configs")
+    given = Bicycle.preset("meijaard2007").given
+    lines = [f"{key} = {value} +/- {abs(value) / 200}\n" for key, value in given.items()]
+    (tmp_path / "measured.txt").write_text("".join(lines), "utf-8")
+    (tmp_path / "rider.txt").write_text(RIDER, "utf-8")
     monkeypatch.chdir(tmp_path)
 
     def run_lines(lines):

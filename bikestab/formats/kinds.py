@@ -1,0 +1,62 @@
+"""A file that a command cannot use → what it is instead, and which command takes it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from bikestab.errors import InputError
+from bikestab.texts import is_file
+
+KINDS = {  # what it is called, and what takes it
+    "volume": ("a volume", "bikestab info, slice and export take it"),
+    "picture": ("a picture", "no command reads pictures"),
+    "config": ("a scan's config", "bikestab scan and check take it"),
+    "bicycle": ("a bicycle's file", "bikestab vrange --bicycle takes it, and 'bicycle:' in a config"),
+    "yeadon": (
+        "a rider's body for the package yeadon",
+        "the inertia that yeadon works out of it goes under rider: in a bicycle's file",
+    ),
+    "rider": ("a rider's file", "bikestab convert BICYCLE --rider takes it"),
+}
+_HEAD = 65536  # bytes that are looked at
+_PICTURES = (b"\x89PNG", b"%PDF", b"\xff\xd8\xff", b"GIF8")
+_KEY = re.compile(r"(?:^|[{,])[ \t\"']*(\w+)[\"']?[ \t]*[:=]", re.MULTILINE)
+_RIDER = {"mB", "xB", "zB", "IBxx", "IBzz", "IBxz"}
+
+
+def kind_of(path: str | Path) -> str:
+    """Which of ``KINDS`` a file is, or nothing where that cannot be told."""
+    head = b""
+    with suppress(OSError, ValueError):
+        if is_file(path) and Path(path).stat().st_size:  # a pipe cannot be read twice
+            with Path(path).open("rb") as file:
+                head = file.read(_HEAD)
+    if head.startswith(b"\x89HDF"):
+        return "volume"
+    if head.startswith(_PICTURES) or b"<svg" in head[:1000]:
+        return "picture"
+    text = head.decode("utf-8", errors="ignore")
+    keys = set(_KEY.findall(text))
+    if "grid" in keys and "bicycle" in keys:
+        return "config"
+    if {"w", "mB"} <= keys or {"m1", "h1"} <= keys or {"mB", "TtB1"} <= keys:
+        return "bicycle"
+    if keys & {"somersault", "measurementconversionfactor"}:
+        return "yeadon"
+    return "rider" if keys >= _RIDER else ""
+
+
+@contextmanager
+def expected(kind: str, path: str | Path) -> Iterator[None]:
+    """Tell of a file of another kind that it is one, in place of the mistake that was found in it."""
+    try:
+        yield
+    except InputError as error:
+        found = kind_of(path)
+        if not found or found == kind:
+            raise
+        what, takes = KINDS[found]
+        raise InputError(f"is {what}, not {KINDS[kind][0]}", place=str(path), hint=takes) from error

@@ -1,0 +1,69 @@
+"""bikestab convert: a bicycle's file in another notation or format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from bikestab_cli.options import FILE, NAME, warn
+
+
+@click.command("convert")
+@click.argument("bicycle_name", type=NAME, metavar="NAME|FILE")
+@click.option(
+    "-o",
+    "--output",
+    type=FILE,
+    metavar="FILE",
+    help="Write to FILE, in the format of its ending: .yaml, .json, .ini or .txt.  [default: YAML to stdout]",
+)
+@click.option("--rider", type=NAME, metavar="FILE", help="Join the rider in a file of BicycleParameters.")
+@click.option(
+    "--notation",
+    type=click.Choice(["given", "paper"]),
+    default="given",
+    show_default=True,
+    help="The parameters as given, or reduced to the paper's two parts.",
+)
+@click.option("--force", is_flag=True, help="Replace an existing file.")  # fmt: skip
+def command(bicycle_name: str, output: str | None, rider: str | None, notation: str, force: bool) -> None:
+    """Write a bicycle in another format or notation.
+
+    Reads whatever --bicycle reads: YAML, JSON and INI of either notation, text and YAML of BicycleParameters,
+    and its pendulum measurements (extra 'measured'). Numbers keep every bit, and their uncertainties.
+
+    \b
+    Examples:
+      bikestab convert meijaard2007 -o mine.json
+      bikestab convert meijaard2007 --notation paper
+    """
+    from bikestab.bicycle import Bicycle
+    from bikestab.errors import InputError
+    from bikestab.files import written
+    from bikestab.formats.writing import written as text_of
+
+    bicycle = Bicycle.load(bicycle_name)
+    if rider:
+        from bikestab.ridden import with_rider
+
+        bicycle = with_rider(bicycle, rider)
+    numbers, deviations = bicycle.given, dict(bicycle.deviations)
+    if notation == "paper" and bicycle.bodies is not None:
+        numbers = {key: value for key, value in bicycle.numbers().items() if value is not None}
+        if deviations:
+            click.echo("note: uncertainties are those of the given parameters; left out", err=True)
+            deviations = {}
+    warn(bicycle)
+    ending = Path(output).suffix.lower() if output else ".yaml"
+    try:
+        text = text_of(ending, numbers, deviations, {"name": bicycle.name, "source": bicycle.source})
+    except InputError as error:
+        raise error.at(output or "") from None
+    if not output:
+        click.echo(text, nl=False)
+        return
+    if Path(output).exists() and not force:
+        raise InputError("exists already", place=output, hint="--force replaces it")
+    with written(output) as part:
+        part.write_text(text, "utf-8")
+    click.echo(output)
