@@ -95,30 +95,30 @@ def _numbers(bicycle: Bicycle | Machines) -> SimpleNamespace:
     """The paper's parameters, and how far the front centre of mass is ahead of the contact, l2 − c."""
     given: Mapping[str, Any] | None = getattr(bicycle, "bodies", None)
     if given is None:
-        numbers = {name: Twofold(getattr(bicycle, name)) for name in _PARAMETERS}
+        numbers = {name: Twofold(getattr(bicycle, name)) for name in PARAMETERS}
         ahead = exact_sum(bicycle.l2, -bicycle.c)
     else:
         numbers = reduced({name: Twofold(value) for name, value in given.items()})
         numbers = {name: x if isinstance(x, Twofold) else Twofold(x) for name, x in numbers.items()}
         numbers |= {name: Twofold(getattr(bicycle, name)) for name in getattr(bicycle, "parts", ())}
         ahead = numbers["l2"] - numbers["c"]
-    return _with_radii(bicycle, numbers, ahead)
+    return with_radii(bicycle, numbers, ahead)
 
 
 def _doubles(bicycle: Bicycle | Machines) -> SimpleNamespace:
     """The same as doubles."""
-    numbers = {name: getattr(bicycle, name) for name in _PARAMETERS}
-    return _with_radii(bicycle, numbers, bicycle.l2 - bicycle.c)
+    numbers = {name: getattr(bicycle, name) for name in PARAMETERS}
+    return with_radii(bicycle, numbers, bicycle.l2 - bicycle.c)
 
 
-def _with_radii(bicycle: Bicycle | Machines, numbers: dict[str, Any], ahead: Any) -> SimpleNamespace:
+def with_radii(bicycle: Bicycle | Machines, numbers: dict[str, Any], ahead: Any) -> SimpleNamespace:
     """What does not spin gets a radius, for it may be a skate, with none."""
     for i in "12":
         numbers[f"R{i}"] = numbers[f"R{i}"] + 1 * (getattr(bicycle, f"C{i}") == 0)
     return SimpleNamespace(**numbers, ahead=ahead)
 
 
-_PARAMETERS = (
+PARAMETERS = (
     "c", "g", "delta", "m1", "l1", "h1", "A1", "B1", "D1", "C1", "R1",
     "m2", "l2", "h2", "A2", "B2", "D2", "C2", "R2",
 )  # fmt: skip

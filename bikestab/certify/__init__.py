@@ -1,0 +1,1 @@
+"""Proofs over boxes of designs, speeds and parameters: everywhere stable, nowhere stable, or undecided."""
