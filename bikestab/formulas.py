@@ -45,7 +45,7 @@ def table_formulas(bicycle: Bicycle, varied: Sequence[str] = (), *, model: Model
     if bicycle.bodies:
         numbers = reduced(numbers)
     p = {name: x if isinstance(x, Ratio) else constant(x) for name, x in numbers.items()}
-    letters = letters(
+    n = letters(
         with_radii(bicycle, p, p["l2"] - p["c"]), symbols["sin"], symbols["cos"], symbols["sigma"], model
     )
     entries = entries_of(n)

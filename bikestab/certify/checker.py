@@ -1,4 +1,4 @@
-"""Check a certificate of stability, slowly and plainly: python checker.py FILE
+"""Check a certificate of stability, slowly and plainly: ``python checker.py FILE``.
 
 It shares nothing with the program that wrote the certificate. All numbers are fractions; the equations of
 motion are those of Dikarev, Dikareva and Fufaev (1981), with sums over the rigid bodies in place of the
@@ -13,6 +13,7 @@ import json
 import sys
 from fractions import Fraction as F
 from math import comb
+from pathlib import Path
 from typing import Any
 
 STABLE, UNSTABLE = 1, 2
@@ -201,5 +202,4 @@ def check(certificate: dict[str, Any]) -> str:
 
 
 if __name__ == "__main__":
-    with open(sys.argv[1], encoding="utf-8") as file:
-        print(check(json.load(file)))
+    sys.stdout.write(check(json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))) + "\n")

@@ -19,7 +19,7 @@ _T, _SIGMA, _V = range(3)
 
 
 class Condition(NamedTuple):
-    """A polynomial in t, σ, V or V², and what varies; ``at_rest``: it was divided by V, so it is zero there."""
+    """A polynomial in t, σ, V or V² and what varies; ``at_rest``: without a power of V, it is zero there."""
 
     polynomial: Polynomial
     squared: bool
@@ -40,7 +40,7 @@ def condition_formulas(formulas: Formulas) -> dict[str, Condition]:
 
 
 def _in_half_angle(side: Polynomial) -> Condition:
-    """Variables sin, cos, σ, V, … → t, σ, V or V², …"""
+    """From the variables sin, cos, σ, V, … to t, σ, V or V², …; the degree gives the power of 1 + t²."""
     number = side.number - 1
     degree = max((powers[0] + powers[1] for powers in side.terms), default=0)
     speeds = [powers[3] for powers in side.terms]

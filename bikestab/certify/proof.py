@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
-from bikestab.certify.bernstein import SPEED, Floats
+from bikestab.certify.bernstein import Floats
 from bikestab.certify.conditions import condition_formulas
 from bikestab.certify.grid import grid_of
 from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE, Decided, Prover, search
 from bikestab.errors import InputError
 from bikestab.formulas import table_formulas
 from bikestab.letters import PARAMETERS, Model
+from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.stability import eigenvalues
 
 MOST_TOLERANCES = 2  # the number of Bernstein coefficients grows by a factor of about 5 with each
@@ -56,7 +57,7 @@ class Proof:
 
     @property
     def verdict(self) -> str:
-        """``stable`` or ``unstable`` all over, ``mixed`` where there is both for certain, else ``undecided``."""
+        """``stable``, ``unstable``, ``mixed`` if both are there for certain, else ``undecided``."""
         found = set(np.unique(self.decided.verdicts).tolist())
         if found == {STABLE}:
             return "stable"
@@ -153,6 +154,10 @@ def prove(
             f"{len(ranges)} tolerances at once are more than the {MOST_TOLERANCES} that can be proved",
             hint="leave some out, or prove boxes of them one after the other",
         )
+    for end in (0, -1):
+        check_tilt(float(lam[end]), ("lam",))
+        check_trail(float(sigma[end]), ("sigma",))
+        check_speed(float(V[end]), ("V",))
     for end in (0, 1):
         if ranges:
             bicycle.replaced({name: ends[end] for name, ends in ranges.items()})

@@ -1,0 +1,224 @@
+"""bikestab certify: proofs that a box of designs and speeds is stable, or unstable."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+from bikestab_cli.options import (
+    ANGLE_ENDS,
+    DEFAULT_BICYCLE,
+    FILE,
+    NAME,
+    SPEED_ENDS,
+    TRAIL_ENDS,
+    Ends,
+    check_files,
+    json_option,
+    load_bicycle,
+    of_file,
+    told_as_options,
+)  # fmt: skip
+from bikestab_cli.output import heading, print_json, tell_file
+from bikestab_cli.progress import progress
+
+from bikestab.errors import InputError
+
+if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
+    from bikestab.certify.proof import Proof
+    from bikestab.model import Model
+
+MOST_CELLS = 512
+
+
+@click.command("certify")
+@click.argument("config", type=NAME, required=False, metavar="[CONFIG]")
+@click.option("--lam", type=ANGLE_ENDS, metavar="A:B", help="Tilt of the steering axis, from A to B.")
+@click.option("--sigma", type=TRAIL_ENDS, metavar="A:B", help="Trail divided by the wheelbase, from A to B.")
+@click.option("--V", "speed", type=SPEED_ENDS, metavar="A:B", help="Speed, from A to B.")
+@click.option(
+    "--bicycle",
+    "bicycle_name",
+    type=NAME,
+    metavar="NAME|FILE",
+    help=f"A bicycle that comes with bikestab, or a file.  [default: {DEFAULT_BICYCLE}, or the config's]",
+)
+@click.option("--delta", type=float, help="Steering damping δ [kg m²/s], instead of the bicycle's own.")
+@click.option(
+    "--model", type=click.Choice(["refined", "unrefined"]), help="The equations.  [default: refined]"
+)
+@click.option(
+    "--tolerance",
+    multiple=True,
+    metavar="NAME=VALUE+-HALF",
+    help="A parameter that may be anything in this range, e.g. mB=85+-2.",
+)
+@click.option(
+    "--cells",
+    type=click.IntRange(1, MOST_CELLS),
+    default=64,
+    show_default=True,
+    help="Cells along each axis that has two ends.",
+)
+@click.option(
+    "-o", "--certificate", type=FILE, metavar="FILE", help="Write the proof for a checker, as JSON."
+)
+@click.option("--verify", type=NAME, metavar="FILE", help="Check a certificate, and nothing else.")
+@click.option("-q", "--quiet", is_flag=True, help="No progress.")
+@json_option
+def command(
+    config: str | None, lam: Ends | None, sigma: Ends | None, speed: Ends | None, bicycle_name: str | None,
+    delta: float | None, model: Model | None, tolerance: tuple[str, ...], cells: int, certificate: str | None,
+    verify: str | None, quiet: bool, as_json: bool,
+) -> None:  # fmt: skip
+    """Prove a box of designs and speeds stable or unstable.
+
+    A scan tells of the points of a grid; this tells of every point between them. The box of a config, or
+    the one between --lam, --sigma and --V, is cut into cells, and each is proved to be stable throughout, to
+    be unstable throughout, or stays undecided, as do those with the boundary in them. The numbers are the
+    exact doubles that are given; all rounding is bounded. With --tolerance a cell is proved for all
+    machines in the range.
+
+    The verdict is stable, unstable, mixed (both are there for certain) or undecided; the exit code
+    is 0 for each of them.
+
+    \b
+    Examples:
+      bikestab certify configs/quick.yaml
+      bikestab certify --bicycle meijaard2007 --lam 17deg:19deg --sigma 0.07:0.085 --V 4.6:5.6
+      bikestab certify --bicycle meijaard2007 --lam 18deg --sigma 0.08 --V 4.6:5.6 --tolerance mB=85+-2
+      bikestab certify --lam 0.2:0.21 --sigma 0.08 --V 4.1:4.6 --cells 4 -o proof.json
+      bikestab certify --verify proof.json
+    """
+    if verify:
+        _verify(verify)
+        return
+    from bikestab import __version__
+    from bikestab.certify.proof import prove
+
+    check_files(certificate)
+    if config:
+        given = {"--lam": lam, "--sigma": sigma, "--V": speed, "--bicycle": bicycle_name, "--delta": delta,
+                 "--model": model}  # fmt: skip
+        if twice := [name for name, value in given.items() if value is not None]:
+            raise click.UsageError(f"{config} says what {twice[0]} says", click.get_current_context())
+        bicycle, model, ends = _of_config(config)
+    else:
+        if missing := [n for n, v in (("--lam", lam), ("--sigma", sigma), ("--V", speed)) if v is None]:
+            problem = f"a box needs a CONFIG, or --lam, --sigma and --V: {missing[0]} is missing"
+            raise click.UsageError(problem, click.get_current_context())
+        bicycle = load_bicycle(bicycle_name or DEFAULT_BICYCLE, delta)
+        ends = {"lam": lam, "sigma": sigma, "V": speed}
+    edges = {name: _edges(name, pair, cells) for name, pair in ends.items() if pair}
+    with told_as_options(), progress("certify", quiet) as show:
+        show(0, 10**6)
+        proof = prove(
+            bicycle, *(edges[name] for name in ("lam", "sigma", "V")), model=model or "refined",
+            tolerances=dict(_tolerance(text, bicycle) for text in tolerance),
+            progress=lambda share: show(int(1e6 * share), 10**6),
+        )  # fmt: skip
+    if certificate:
+        from bikestab.files import written
+
+        with written(certificate) as part:
+            part.write_text(proof.certificate(__version__) + "\n", encoding="utf-8")
+        tell_file(certificate)
+    if as_json:
+        print_json(proof.record())
+    else:
+        click.echo(_words(proof))
+
+
+def _edges(name: str, ends: Ends, cells: int) -> Any:
+    import numpy as np
+
+    start, stop = ends
+    if stop < start:
+        raise click.BadParameter(f"{start:g}:{stop:g} ends before it starts", param_hint=f"--{name}")
+    if name == "V" and start < 0:
+        raise click.BadParameter(f"{start:g} m/s is negative; allowed: 0 and above", param_hint="--V")
+    return np.linspace(start, stop, cells + 1) if stop > start else np.array([start, stop])
+
+
+def _of_config(name: str) -> tuple[Bicycle, Model, dict[str, Ends | None]]:
+    from bikestab.config.file import load_config
+
+    with of_file(name):
+        config = load_config(name)
+        if config.sweep or config.ensemble:
+            key = "sweep" if config.sweep else "ensemble"
+            raise InputError(
+                "a proof is of one machine",
+                key=(key,),
+                hint=f"leave {key} out, or give ranges as --tolerance",
+            )
+    return config.machine, config.model, {axis: config.grid.ends(axis) for axis in ("lam", "sigma", "V")}
+
+
+def _tolerance(text: str, bicycle: Bicycle) -> tuple[str, Ends]:
+    from bikestab.errors import nearest
+    from bikestab.units import PURE, quantity
+
+    name, equals, value = text.partition("=")
+    middle, sign, half = value.replace("±", "+-").partition("+-")
+    name = name.strip()
+    if not equals or not sign:
+        raise click.BadParameter(f"{text!r} is not NAME=VALUE+-HALF, e.g. mB=85+-2", param_hint="--tolerance")
+    own = set(bicycle.given) - {"lam", "sigma"} if bicycle.given else set()
+    allowed = own - ({"c"} if bicycle.bodies else set())
+    if name not in allowed:
+        problem = f"{bicycle.name} has no parameter {name!r} that can vary; {nearest(name, sorted(allowed))}"
+        raise click.BadParameter(problem, param_hint="--tolerance")
+    try:
+        x, d = quantity(middle, PURE), quantity(half, PURE)
+    except InputError as error:
+        raise click.BadParameter(
+            f"{text!r}: {error.problem}; {error.hint}", param_hint="--tolerance"
+        ) from None
+    if d < 0:
+        raise click.BadParameter(f"{text!r}: {d:g} is negative", param_hint="--tolerance")
+    return name, (x - d, x + d)
+
+
+def _words(proof: Proof) -> str:
+    record = proof.record()
+    box = ", ".join(f"{name} {low:.6g} ... {high:.6g}" for name, (low, high) in record["box"].items())
+    lines = [
+        heading(proof.bicycle, proof.model),
+        f"box: {box}",
+        f"verdict: {record['verdict']}",
+        f"proved stable    {100 * record['proved_stable']:8.4f} %",
+        f"proved unstable  {100 * record['proved_unstable']:8.4f} %",
+        f"undecided        {100 * record['undecided']:8.4f} %",
+    ]
+    if point := record["counterexample"]:
+        where = f"λ = {point['lam']:.6g}, σ = {point['sigma']:.6g}, V = {point['V']:.6g} m/s"
+        where += "".join(f", {name} = {value:.6g}" for name, value in point.get("set", {}).items())
+        grows = max(real for real, _ in point["eigenvalues"])
+        lines.append(f"not stable at {where}, where it grows at {grows:.4g} 1/s")
+    if record["undecided"]:
+        lines.append(
+            "twice as many --cells leave about half of what is undecided: cells with the boundary in them"
+        )
+    return "\n".join(lines)
+
+
+def _verify(name: str) -> None:
+    from bikestab.certify.checker import check
+
+    problem = "is no certificate of bikestab"
+    try:
+        certificate = json.loads(Path(name).read_text(encoding="utf-8"))
+        if certificate["format"] != "bikestab certificate 1":
+            raise InputError(problem, place=name, hint="'bikestab certify ... -o FILE' writes one")
+        click.echo(f"{name}: {check(certificate)}")
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", place=name) from None
+    except (KeyError, TypeError, IndexError, AttributeError, json.JSONDecodeError, UnicodeDecodeError):
+        raise InputError(problem, place=name, hint="'bikestab certify ... -o FILE' writes one") from None
+    except ValueError as error:
+        click.echo(f"{name}: {error}", err=True)
+        click.get_current_context().exit(1)

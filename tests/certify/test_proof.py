@@ -1,0 +1,173 @@
+"""What is proved is so: at random points of proved cells, by exact signs; and every proof can be checked."""
+
+import json
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bikestab.bicycle import Bicycle
+from bikestab.certify import checker
+from bikestab.certify.proof import prove
+from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE
+from bikestab.errors import InputError
+from bikestab.formulas import table_formulas
+from bikestab.model import exact_table
+from bikestab.speeds import intervals_of
+from tests.strategies import machines
+
+PAPER, BENCHMARK = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
+
+
+def stable_at(bicycle, lam, sigma, V, model="refined"):
+    """Whether points are stable, by the exact stable speeds; NaN within their bounds."""
+    found = intervals_of(exact_table(bicycle, lam, sigma, model=model))
+    inside = (V[:, np.newaxis] > found.V1) & (V[:, np.newaxis] < found.V2)
+    near = (np.abs(found.V1 - V[:, np.newaxis]) <= found.V1_error) | (
+        np.abs(found.V2 - V[:, np.newaxis]) <= found.V2_error
+    )
+    unsure = near.any(axis=-1) | (found.marginal[:, 0] > 0)
+    return np.where(unsure, np.nan, inside.any(axis=-1))
+
+
+def number(fraction):
+    return mpmath.mpf(fraction.numerator) / fraction.denominator
+
+
+def points_of(proof, rng, number):
+    """Random points with the verdicts on their cells: half of them corners, half inside."""
+    cells = np.array([rng.integers(0, n, number) for n in proof.cells.shape])
+    share = rng.uniform(size=cells.shape)
+    share[:, ::2] = rng.integers(0, 2, share[:, ::2].shape)
+    points = [
+        np.clip(edges[i] + s * (edges[i + 1] - edges[i]), edges[i], edges[i + 1])
+        for edges, i, s in zip(proof.edges[:3], cells, share, strict=True)
+    ]
+    return points, proof.cells[tuple(cells)]
+
+
+@settings(max_examples=12, deadline=None)
+@given(machines, st.sampled_from([0.0, 1e-9, 1e-3, 1.0, 1e3]), st.integers(0, 2**32 - 1))
+def test_proved_cells_of_random_machines(values, delta, seed):
+    rng = np.random.default_rng(seed)
+    bicycle = Bicycle.from_mapping(values).with_delta(delta)
+    lam = np.sort(rng.uniform(-0.3, 0.6, 2))
+    sigma = np.sort(rng.uniform(-0.1, 0.3, 2))
+    V = np.sort(rng.uniform(0, 20, 2)) * rng.integers(0, 2, 2).max()
+    proof = prove(bicycle, np.linspace(*lam, 7), np.linspace(*sigma, 7), np.linspace(*V, 7))
+    points, verdicts = points_of(proof, rng, 400)
+    truth = stable_at(bicycle, *points)
+    assert not np.any((verdicts == STABLE) & (truth == 0))
+    assert not np.any((verdicts == UNSTABLE) & (truth == 1))
+
+
+def test_the_papers_box_is_decided_but_for_the_boundary():
+    edges = [np.linspace(0, end, 33) for end in (0.30, 0.15, 15.0)]
+    proof = prove(PAPER, *edges)
+    lam, sigma, V = np.meshgrid(*edges, indexing="ij")
+    stable = stable_at(PAPER, lam.ravel(), sigma.ravel(), V.ravel()).reshape(lam.shape) == 1
+    places = np.ndindex(2, 2, 2)
+    corners = np.stack([stable[i : 32 + i, j : 32 + j, k : 32 + k] for i, j, k in places])
+    boundary = corners.any(axis=0) & ~corners.all(axis=0)
+    assert np.all(proof.cells[boundary] == UNDECIDED)
+    assert np.count_nonzero(proof.cells == UNDECIDED) < 1.1 * np.count_nonzero(boundary)
+    assert np.all(corners.all(axis=0)[proof.cells == STABLE])
+    assert not np.any(corners.any(axis=0)[proof.cells == UNSTABLE])
+    assert proof.verdict == "mixed"
+    assert proof.counterexample()["eigenvalues"][0][0] > 0
+    assert sum(proof.fractions) == pytest.approx(1, abs=1e-12)
+
+
+def test_rest_is_never_proved_stable():
+    """At V = 0 and without damping no machine is asymptotically stable, though it may be at once above."""
+    skate = Bicycle.preset("kooijman2011")
+    lam, sigma = np.array([skate.lam] * 2), np.array([skate.sigma] * 2)
+    proof = prove(skate, lam, sigma, np.linspace(0, 10, 11))
+    assert proof.cells[0, 0, 0] != STABLE
+    assert proof.cells[0, 0, 9] == STABLE
+
+
+def test_tolerances_hold_for_every_machine_in_them():
+    lam, sigma = np.linspace(0.30, 0.33, 5), np.linspace(0.07, 0.085, 5)
+    V = np.linspace(4, 6.5, 11)
+    ranges = {"mB": (80.0, 90.0), "xB": (0.28, 0.32)}
+    proof = prove(BENCHMARK, lam, sigma, V, tolerances={"mB": ranges["mB"]})
+    alone = prove(BENCHMARK, lam, sigma, V)
+    assert np.all((proof.cells == alone.cells) | (proof.cells == UNDECIDED))
+    assert {STABLE, UNSTABLE} <= set(proof.cells.ravel().tolist())
+    rng = np.random.default_rng(1)
+    for mB in (80.0, 83.7, 90.0):
+        points, verdicts = points_of(proof, rng, 300)
+        truth = stable_at(BENCHMARK.replaced({"mB": mB}), *points[:3])
+        assert np.all(truth[verdicts == STABLE] == 1)
+        assert np.all(truth[verdicts == UNSTABLE] == 0)
+    both = prove(BENCHMARK, lam[:2], sigma[:2], np.array([4.9, 5.1]), tolerances=ranges)
+    assert both.verdict == "stable"
+    with pytest.raises(InputError, match="3 tolerances"):
+        prove(BENCHMARK, lam, sigma, V, tolerances={**ranges, "g": (9.7, 9.9)})
+    with pytest.raises(InputError, match="mB"):
+        prove(BENCHMARK, lam, sigma, V, tolerances={"mB": (-1.0, 2.0)})
+
+
+@pytest.mark.parametrize(
+    ("bicycle", "tolerances"), [(PAPER, {}), (PAPER, {"m1": (79.9, 80.1)}), (BENCHMARK, {})]
+)
+def test_certificates_hold_and_one_changed_number_breaks_them(bicycle, tolerances):
+    lam, sigma, V = (0.20, 0.21), (0.080, 0.081), (4.2, 4.5)
+    if bicycle is BENCHMARK:
+        lam, sigma, V = (0.31, 0.32), (0.078, 0.079), (4.8, 5.6)
+    proof = prove(bicycle, *map(np.array, (lam, sigma, V)), tolerances=tolerances)
+    certificate = json.loads(proof.certificate("1"))
+    assert proof.verdict == "stable"
+    assert "hold" in checker.check(certificate)
+    changes = (
+        lambda c: c["blocks"].__setitem__(0, [c["blocks"][0][0], UNSTABLE]),
+        lambda c: c["blocks"].append(c["blocks"][0]),
+        lambda c: c["edges"][2].__setitem__(0, (1.0).hex()),
+        lambda c: c["machine"].__setitem__("g", (99.0).hex()),
+    )
+    for change in changes[-1:] if tolerances else changes:
+        changed = json.loads(proof.certificate("1"))
+        change(changed)
+        with pytest.raises(ValueError, match="block"):
+            checker.check(changed)
+
+
+@pytest.mark.parametrize(
+    ("bicycle", "varied"),
+    [(PAPER, ()), (PAPER, ("R2", "m2")), (BENCHMARK, ("mB", "w", "xH")), (BENCHMARK, ())],
+)
+@pytest.mark.parametrize("model", ["refined", "unrefined"])
+def test_formulas_are_the_table(bicycle, varied, model):
+    """The entries at exact numbers near a sine and cosine, against the table in twice double precision."""
+    lam, sigma = 0.7, 0.0625
+    formulas = table_formulas(bicycle, varied, model=model)
+    own = bicycle.bodies or bicycle.numbers()
+    with mpmath.workdps(60):
+        values = [mpmath.sin(lam), mpmath.cos(lam), mpmath.mpf(sigma), *(mpmath.mpf(own[n]) for n in varied)]
+
+        def value(polynomial):
+            return mpmath.fsum(
+                number(a) * mpmath.fprod(x**k for x, k in zip(values, powers, strict=True))
+                for powers, a in polynomial.terms.items()
+            )
+
+        scale = mpmath.fprod(value(factor) ** power for factor, power in formulas.below.items())
+        table = exact_table(bicycle, lam, sigma, model=model)
+        for (k, j), entry in formulas.entries.items():
+            found = value(entry) / scale
+            held = mpmath.mpf(float(table.value[k, j])) + float(table.rest[k, j])
+            assert abs(found - held) <= table.error[k, j]
+
+
+def test_tangents_of_half_angles_lie_between():
+    lam = [-1.4, -0.3, 0.0, 1e-9, 0.2, 1.3]
+    for angle in lam:
+        low, high = checker.half_angle(angle, up=False), checker.half_angle(angle, up=True)
+        with mpmath.workdps(50):
+            exact = mpmath.tan(mpmath.mpf(angle) / 2)
+            assert number(low) <= exact <= number(high)
+        assert high - low <= Fraction(1, 2**78)
