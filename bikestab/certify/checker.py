@@ -12,7 +12,7 @@ import itertools
 import json
 import sys
 from fractions import Fraction as F
-from math import comb
+from math import comb, prod
 from pathlib import Path
 from typing import Any
 
@@ -51,11 +51,11 @@ def minus(a: Poly, b: Poly) -> Poly:
 
 def bodies_of(n: dict[str, Poly], four: bool) -> tuple[list[Bodies], dict[str, Poly]]:
     """The bodies of the rear and the front part, and what else there is, by name."""
-    zero = by(0, n["g"])
     if not four:
         rear: Bodies = [(n["m1"], n["l1"], n["h1"], n["A1"], n["B1"], n["D1"])]
         front: Bodies = [(n["m2"], n["l2"], n["h2"], n["A2"], n["B2"], by(-1, n["D2"]))]
         return [rear, front], {key: n[key] for key in ("c", "g", "delta", "C1", "R1", "C2", "R2")}
+    zero = by(0, n["g"])
     wheel = (n["mR"], zero, n["rR"], n["IRxx"], n["IRxx"], zero)
     frame = (n["mB"], n["xB"], by(-1, n["zB"]), n["IBxx"], n["IBzz"], n["IBxz"])
     fork = (n["mH"], n["xH"], by(-1, n["zH"]), n["IHxx"], n["IHzz"], n["IHxz"])
@@ -66,8 +66,7 @@ def bodies_of(n: dict[str, Poly], four: bool) -> tuple[list[Bodies], dict[str, P
 
 def conditions(machine: dict[str, str], varied: list[str], four: bool, refined: bool) -> list[Poly]:
     """p0 … p4 and hurwitz3, times what is positive."""
-    size = 4 + len(varied)
-    one: Poly = {(0,) * size: F(1)}
+    one: Poly = {(0,) * (size := 4 + len(varied)): F(1)}
     sin, cos, sigma, V, *free = ({tuple(int(i == k) for i in range(size)): F(1)} for k in range(size))
     numbers = {"g": "0x0p0", "delta": "0x0p0", **machine}
     n = {key: {(0,) * size: F(float.fromhex(text))} for key, text in numbers.items()}
@@ -108,20 +107,15 @@ def conditions(machine: dict[str, str], varied: list[str], four: bool, refined: 
         times(V, V, minus(plus(times(a0, b2), times(a3, b5)), times(a5, b4))),
         minus(plus(times(a0, b3), times(a1, b0)), plus(times(a2, b6), times(a4, b4))),
     )
-    p1 = minus(
-        times(V, V, V, a5, b5),
-        plus(times(a1, damped), times(V, minus(times(a4, b5), times(a3, b6)))),
-    )
+    falling = plus(times(a1, damped), times(V, minus(times(a4, b5), times(a3, b6))))
+    p1 = minus(times(V, V, V, a5, b5), falling)
     p0 = plus(times(V, V, minus(times(a5, b6), times(a1, b2))), minus(times(a1, b3), times(a4, b6)))
     hurwitz3 = minus(times(p1, minus(times(p2, p3), times(p4, p1))), times(p0, p3, p3))
     return [p0, p1, p2, p3, p4, hurwitz3]
 
 
 def in_half_angle(side: Poly) -> tuple[Poly, int, bool]:
-    """Variables sin, cos, σ, V … → t = tan(λ/2), σ, V or V² …, times a power of 1 + t² and without V^least.
-
-    Also the power of V that is a variable, and whether least > 0.
-    """
+    """Variables t = tan(λ/2), σ, V or V² …, times a power of 1 + t², over V^least; V's power; least > 0."""
     degree, least = max(p[0] + p[1] for p in side), min(p[3] for p in side)
     power = 1 if any((p[3] - least) % 2 for p in side) else 2
     size = len(next(iter(side))) - 1
@@ -195,9 +189,7 @@ def check(certificate: dict[str, Any]) -> str:
         unstable = min(signs[4]) > 0 and any(max(values) < 0 for values in signs)
         if (verdict, True) not in ((STABLE, stable), (UNSTABLE, unstable)):
             raise ValueError(f"block {ends} is not proved to be {('', 'stable', 'unstable')[verdict]}")
-    total = 1
-    for axis in edges:
-        total *= len(axis) - 1
+    total = prod(len(axis) - 1 for axis in edges)
     return f"{len(certificate['blocks'])} blocks hold, {len(seen)} of {total} cells"
 
 
