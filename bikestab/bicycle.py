@@ -14,8 +14,9 @@ from typing import Any, ClassVar
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.limits import check_product, check_tilt, check_trail, check_value, part_warnings, require
+from bikestab.limits import check_product, check_tilt, check_trail, check_value, require
 from bikestab.notation import MEASURED, MEIJAARD, OPTIONAL, two_parts
+from bikestab.plausible import warnings_of
 from bikestab.presets import preset_names, preset_text
 from bikestab.rider import RIDER, flattened, left_behind
 from bikestab.texts import is_file
@@ -102,9 +103,7 @@ class Bicycle:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What no rigid bodies on the ground can have, one sentence each."""
-        rear = self.A1, self.B1, self.C1, self.m1, self.R1, self.h1, -self.l1
-        front = self.A2, self.B2, self.C2, self.m2, self.R2, self.h2, self.c - self.l2
-        return (*self.remarks, *part_warnings("1", "rear", *rear), *part_warnings("2", "front", *front))
+        return warnings_of(self)
 
     def numbers(self) -> dict[str, float | None]:
         """The parameters by name, as plain numbers."""

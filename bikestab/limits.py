@@ -23,18 +23,6 @@ def check_tilt(lam: float, key: tuple[str | int, ...]) -> None:
         )
 
 
-def tilt_doubt(lowest: float) -> list[str]:
-    """The likely mistake where the lowest of some tilts [rad] is beyond half a right angle."""
-    if not math.pi / 4 < lowest < math.pi / 2:
-        return []
-    degrees = math.degrees(lowest)
-    text = (
-        f"λ = {degrees:.6g}° is a head angle of {90 - degrees:.6g}°: lam is the tilt from the vertical; "
-        f"for a head angle of {degrees:.6g}° give lam = {90 - degrees:.6g}deg, or head_angle"
-    )
-    return [text]
-
-
 def check_trail(sigma: float, key: tuple[str | int, ...]) -> None:
     """Raise InputError for a trail beyond all sense, which would overflow in the conditions."""
     if not abs(sigma) <= MOST_TRAIL:
@@ -57,6 +45,14 @@ def exceeds(a: Any, b: Any) -> Any:
     return a > b * (1 + 1e-9)  # published inertias of thin discs sit exactly on the limit
 
 
+def half_digit(value: float) -> float:
+    """What rounding to the last digit that it is written with may have changed a number by; 0 if whole."""
+    digits = repr(float(value)).partition(".")[2]
+    if not digits.strip("0") or "e" in digits:
+        return 0.0
+    return float(min(0.5 * 10.0 ** -len(digits), 0.02 * abs(value)))  # one digit alone may be exact
+
+
 def doubts(A: Any, B: Any, C: Any, m: Any, R: Any, h: Any, ahead: Any) -> tuple[Any, Any, Any, Any]:
     """What no part of rigid bodies on the ground has; of floats or arrays.
 
@@ -73,10 +69,13 @@ def doubts(A: Any, B: Any, C: Any, m: Any, R: Any, h: Any, ahead: Any) -> tuple[
 
 
 def part_warnings(
-    i: str, part: str, A: float, B: float, C: float, m: float, R: float, h: float, ahead: float
-) -> list[str]:
-    """``doubts`` about one part in sentences."""
+    i: str, part: str, A: float, B: float, C: float, m: float, R: float, h: float, ahead: float,
+    slack: tuple[float, float, float] = (0.0, 0.0, 0.0),
+) -> list[str]:  # fmt: skip
+    """``doubts`` about one part in sentences; A, B and C may each be wrong by their ``slack``."""
     inertias, wheel, below, tight = doubts(A, B, C, m, R, h, ahead)
+    still = doubts(A + slack[0], B + slack[1], max(C - slack[2], 0.0), m, R, h, ahead)
+    inertias, tight = inertias & still[0], tight & still[3]
     sentences = []
     if inertias:
         sentences.append(

@@ -9,7 +9,7 @@ from functools import reduce
 from typing import Any
 
 from bikestab.errors import InputError
-from bikestab.limits import check_product, check_tilt, check_value, exceeds
+from bikestab.limits import check_product, check_tilt, check_value, exceeds, half_digit
 from bikestab.rider import CHECKS as RIDER_CHECKS
 from bikestab.rider import OPTIONAL as RIDER_OPTIONAL
 from bikestab.rider import RIDER, rider_body
@@ -123,14 +123,15 @@ def _body_remarks(n: Mapping[str, float]) -> list[str]:
     remarks = []
     for wheel, part in (("R", "rear"), ("F", "front")):
         xx, yy = n[f"I{wheel}xx"], n[f"I{wheel}yy"]
-        if exceeds(yy, 2 * xx):
+        if exceeds(yy - half_digit(yy), 2 * (xx + half_digit(xx))):
             remarks.append(f"no rigid {part} wheel has I{wheel}yy > 2 I{wheel}xx: {yy:g} > {2 * xx:g} kg m²")
     for inertia, label in zip(INERTIAS, ("body", "fork", "rider"), strict=True):
         if f"{inertia}yy" not in n:
             continue
         xx, yy, zz, xz = (n[inertia + axes] for axes in ("xx", "yy", "zz", "xz"))
         spread = math.hypot(xx - zz, 2 * xz)  # difference of the two principal moments in the plane
-        if exceeds(yy, xx + zz) or exceeds(spread, yy):
+        slack = half_digit(yy) + half_digit(xx) + half_digit(zz)
+        if exceeds(yy, xx + zz + slack) or exceeds(spread, yy + slack + 2 * half_digit(xz)):
             remarks.append(
                 f"no rigid {label} has {inertia}yy = {yy:g} with {inertia}xx = {xx:g}, "
                 f"{inertia}zz = {zz:g}, {inertia}xz = {xz:g} kg m²: "

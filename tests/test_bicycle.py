@@ -271,9 +271,9 @@ def test_warnings_of_the_papers_values():
         (SOUND, {"B2": 0.03}, "no front part with a wheel of C2 = 0.2 has B2 = 0.03 < 0.1809 kg m²"),
         (SOUND, {"h1": -0.1}, "the rear centre of mass is below the ground: h1 = -0.1 m"),
         (SOUND, {"h2": -0.1, "A2": 3}, "the front centre of mass is below the ground: h2 = -0.1 m"),
-        (BENCHMARK, {"IRyy": 0.1207}, "no rigid rear wheel has IRyy > 2 IRxx"),
-        (BENCHMARK, {"IFyy": 0.2811}, "no rigid front wheel has IFyy > 2 IFxx"),
-        (BENCHMARK, {"IByy": 12.1}, "no rigid body has IByy = 12.1"),
+        (BENCHMARK, {"IRyy": 0.1209}, "no rigid rear wheel has IRyy > 2 IRxx"),
+        (BENCHMARK, {"IFyy": 0.2813}, "no rigid front wheel has IFyy > 2 IFxx"),
+        (BENCHMARK, {"IByy": 12.3}, "no rigid body has IByy = 12.3"),
         (BENCHMARK, {"IByy": 7}, "allowed 8 ... 12"),
         (BENCHMARK, {"IHyy": 0.0661}, "no rigid fork has IHyy = 0.0661"),
     ],
@@ -298,8 +298,8 @@ def test_a_wheel_and_a_point_mass_are_a_possible_front_part(rim, thickness, shar
     values = {**SOUND, "m2": m, "R": R, "C1": 0, "C2": C2, "A2": A2, "B2": B2, "l2": l2, "h2": h2}
     assert make(values).warnings == ()
     least = C2 / 2 + C2 / R**2 * m / (m - C2 / R**2) * (R - h2) ** 2
-    assume(0.99 * least + B2 > 1.001 * C2)
-    (warning,) = make({**values, "A2": 0.99 * least}).warnings
+    assume(0.9 * least + B2 > 1.05 * C2)  # beyond what rounding to a few digits may hide
+    (warning,) = make({**values, "A2": 0.9 * least}).warnings
     assert "no front part with a wheel of C2 = " in warning
 
 
@@ -311,8 +311,9 @@ def test_pitch_inertias_are_optional_and_without_effect():
 @settings(deadline=None, max_examples=60, derandomize=True)
 @given(machine=machines)
 def test_possible_machines_pass(machine):
-    """The only remarks may be about a wheel the paper's notation says too little about."""
+    """The only remarks may be about the geometry, and in the paper's notation about the wheels in a part."""
     about_a_wheel = ("no wheel within", "part with a wheel of") if "A2" in machine else ()
+    about_a_wheel += ("the wheels overlap", "is a head angle of")
     warnings = Bicycle.from_mapping(machine).warnings
     assert not [text for text in warnings if not any(words in text for words in about_a_wheel)]
 

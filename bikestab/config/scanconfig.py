@@ -41,6 +41,7 @@ from bikestab.errors import InputError, nearest
 from bikestab.fields import AXES, Axis, askable
 from bikestab.identity import identity
 from bikestab.model import Floats, Model
+from bikestab.plausible import design_doubts
 from bikestab.presets import preset_names
 from bikestab.rider import left_behind
 from bikestab.units import shown
@@ -200,9 +201,11 @@ class ScanConfig(Strict):
     @cached_property
     def warnings(self) -> list[str]:
         """What no rigid bodies on the ground can have, of the machines that are computed."""
+        lam, sigma = (min(self.grid.ends(name), key=abs) for name in ("lam", "sigma"))
+        doubts = [f"grid: {text}" for text in design_doubts(lam, sigma, self.bicycle.c)]
         if not self.sweep and not self.ensemble:
-            return list(self.machine.warnings)
-        return doubts_of(self.members, self.ensemble)
+            return [*doubts, *self.machine.warnings]
+        return [*doubts, *doubts_of(self.members, self.ensemble)]
 
     @cached_property
     def notes(self) -> list[str]:

@@ -82,15 +82,15 @@ def design_chosen(bicycle: Bicycle, given: Given) -> tuple[float, float]:
     lam, sigma = designs_chosen(bicycle, given)
     with told_as_options():
         tilt, trail = (float(values.flat[0]) for values in design_of(bicycle, lam, sigma))
-    doubt_tilt(tilt)
+    doubt_designs(given, tilt, trail, bicycle.c)
     return tilt, trail
 
 
-def doubt_tilt(lowest: float) -> None:
-    """Warn of the likely mistake where every tilt [rad] is beyond half a right angle."""
-    from bikestab.limits import tilt_doubt
+def doubt_designs(given: Given, lam: float, sigma: float, wheelbase: float) -> None:
+    """Warn of the likely mistake in the least λ [rad] and the least |σ| of designs that were ``given``."""
+    from bikestab.plausible import design_doubts
 
-    for text in tilt_doubt(lowest):
+    for text in design_doubts(lam, sigma, wheelbase) if given else ():
         click.echo(f"warning: {text}", err=True)
 
 

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import click
-from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_tilt, is_single
+from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_designs, is_single
 from bikestab_cli.options import json_option, load_bicycle, machine_options, sd_option, told_as_options
 from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, print_json, table
 
@@ -72,7 +72,8 @@ def command(
     with told_as_options():  # a table has no room for what is nearest
         answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=as_json or single)
     spreads = _spreads(answers, bicycle, model, *deviations)
-    doubt_tilt(min(answer["lam"] for answer in answers))
+    least = [min((answer[name] for answer in answers), key=abs) for name in ("lam", "sigma")]
+    doubt_designs(given, least[0], least[1], bicycle.c)
     if as_json:
         from bikestab.design.spread import plain
 
