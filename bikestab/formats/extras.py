@@ -22,11 +22,14 @@ UNUSED = {
     **dict.fromkeys(("lcs", "hbb", "lsp", "lst", "lamst", "whb", "LhbF", "LhbR"), "for placing a rider"),
 }
 _ZERO = {
-    "yB", "yH", "yR", "yF", "xR", "IBxy", "IByz", "IHxy", "IHyz", "IRxz", "IFxz",
+    "yB", "yD", "yF", "yH", "yP", "yR", "xR", "alphaR", "alphaF",
+    "IBxy", "IByz", "IHxy", "IHyz", "IRxz", "IFxz",
     *(f"kT{torque}_{state}" for torque in ("phi", "del") for state in ("phi", "del", "phid", "deld")),
 }  # fmt: skip
 _MUST_BE: dict[str, tuple[str, Callable[[Mapping[str, float]], float]]] = {
     **{key: ("0", lambda n: 0.0) for key in _ZERO},
+    "kRbb": ("kRaa", lambda n: n["kRaa"]),
+    "kFbb": ("kFaa", lambda n: n["kFaa"]),
     "IRzz": ("IRxx", lambda n: n["IRxx"]),
     "IFzz": ("IFxx", lambda n: n["IFxx"]),
     "xF": ("w", lambda n: n["w"]),

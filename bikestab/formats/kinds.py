@@ -15,6 +15,10 @@ KINDS = {  # what it is called, and what takes it
     "picture": ("a picture", "no command reads pictures"),
     "config": ("a scan's config", "bikestab scan and check take it"),
     "bicycle": ("a bicycle's file", "bikestab vrange --bicycle takes it, and 'bicycle:' in a config"),
+    "bikecad": (
+        "a design of BikeCAD, which has lengths and angles but no masses and moments of inertia",
+        "bikestab vrange --head-angle and --trail take its angle and trail, with a bicycle that has masses",
+    ),
     "yeadon": (
         "a rider's body for the package yeadon",
         "the inertia that yeadon works out of it goes under rider: in a bicycle's file",
@@ -36,13 +40,15 @@ def kind_of(path: str | Path) -> str:
                 head = file.read(_HEAD)
     if head.startswith(b"\x89HDF"):
         return "volume"
+    if b"<!DOCTYPE properties" in head[:1000]:
+        return "bikecad"
     if head.startswith(_PICTURES) or b"<svg" in head[:1000]:
         return "picture"
     text = head.decode("utf-8", errors="ignore")
     keys = set(_KEY.findall(text))
     if "grid" in keys and "bicycle" in keys:
         return "config"
-    if {"w", "mB"} <= keys or {"m1", "h1"} <= keys or {"mB", "TtB1"} <= keys:
+    if {"w", "mB"} <= keys or {"w", "kHaa"} <= keys or {"m1", "h1"} <= keys or {"mB", "TtB1"} <= keys:
         return "bicycle"
     if keys & {"somersault", "measurementconversionfactor"}:
         return "yeadon"

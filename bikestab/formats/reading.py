@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.formats import equalities, measured
+from bikestab.formats import equalities, measured, principal
 from bikestab.formats.extras import without_extras
 from bikestab.formats.found import Found
 from bikestab.formats.kinds import expected
@@ -118,4 +118,9 @@ def _settled(values: Mapping[Any, Any], located: Located) -> tuple[dict[Any, Any
         raise located(error) from None
     if values and not kept:
         raise located(InputError(f"has no parameter of a bicycle: {', '.join(map(str, values))}"))
+    if principal.looks_like(kept):
+        try:
+            return principal.converted(kept), [*notes, "from principal axes; its body P is the rider"]
+        except InputError as error:
+            raise located(error) from None
     return kept, notes

@@ -18,6 +18,7 @@ TEXTS = {
     "config": GOOD,
     "bicycle": preset_text("meijaard2007"),
     "rider": RIDER,
+    "bikecad": '<?xml version="1.0"?>\n<!DOCTYPE properties SYSTEM "x">\n<properties>\n</properties>\n',
     "yeadon": "# a rider\nsomersault: 2.2\ntwist: 0\n",
 }
 READERS = {
