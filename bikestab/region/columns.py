@@ -93,23 +93,30 @@ class Columns:
         self.V = np.concatenate([known, new], axis=1)
         self.place = np.concatenate([self.place, places[:, first]], axis=1)
 
-    def alike(self, point: int, record: int, structure: int, most: float) -> Floats:
+    def alike(self, point: int, record: int, structure: int, most: float, *, beside: bool) -> Floats:
         """The ends (2, interval) over a point nearest to a record's and of their kinds; NaN where too far.
 
-        They may be ``most`` [m/s] away, or be on the same face of the box.
+        They may be ``most`` [m/s] away, or be on the same face of the box. Where there is none and the point
+        is ``beside`` that of the record, it is the face that one of both is on and the other near to.
         """
         mine = self.record[point][self.record[point] >= 0]
         codes = self.codes[self.record[point] >= 0]
         V = self.V[:, record].copy()
         numbers = range(self.V.shape[2])
         for side in (0, 1):
+            own = np.concatenate([self.V[side, mine[number_of(codes) > j], j] for j in numbers])
+            kinds = np.concatenate([kind_of(codes, j, side)[number_of(codes) > j] for j in numbers])
             for k in range(number_of(self.codes[structure])):
                 kind = kind_of(self.codes[structure], k, side)
-                alike = [(number_of(codes) > j) & (kind_of(codes, j, side) == kind) for j in numbers]
-                own = np.concatenate([self.V[side, mine[alike[j]], j] for j in numbers])
                 gap = np.abs(own - V[side, k])
-                near = gap.min(initial=np.inf) <= (0.0 if kind == NONE else most)
-                V[side, k] = own[np.argmin(gap)] if near else np.nan
+                alike = (kinds == kind) & (gap <= (0.0 if kind == NONE else most))
+                on_face = beside & ((kinds == NONE) | (kind == NONE)) & (gap <= most)
+                if alike.any():
+                    V[side, k] = own[np.argmin(np.where(alike, gap, np.inf))]
+                elif not on_face.any():
+                    V[side, k] = np.nan
+                elif kind != NONE:
+                    V[side, k] = own[np.argmin(np.where(on_face, gap, np.inf))]
         return V
 
     def touching(self, sides: Index, structure: Index, near: float) -> NDArray[np.bool_]:

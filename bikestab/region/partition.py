@@ -207,7 +207,8 @@ def _borrowed(box: Box, plane: Partition, triangle: Index) -> int:
         for corner in others:
             away = plane.length(np.column_stack([triangle[lenders], np.full(len(lenders), triangle[corner])]))
             record = columns.record[triangle[lenders[np.argmin(away)]], structure]
-            found.append(columns.alike(triangle[corner], record, structure, 0.02 * (box.V[1] - box.V[0])))
+            near, beside = 0.02 * (box.V[1] - box.V[0]), bool(away.min() < _SMALL)
+            found.append(columns.alike(triangle[corner], record, structure, near, beside=beside))
         V = np.array(found).reshape(len(others), 2, columns.V.shape[2]).swapaxes(0, 1)
         if np.isfinite(V).all():
             code = np.full(len(others), columns.codes[structure])

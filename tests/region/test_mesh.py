@@ -1,5 +1,7 @@
 """The mesh of the boundary: on the surface, closed, oriented, and stable on one side."""
 
+from itertools import islice
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,6 +15,7 @@ from bikestab.region.mesh import region_mesh
 from bikestab.routh import condition, conditions, stable
 from bikestab.speeds import CAPSIZE, NONE, WEAVE, critical_speeds, intervals_of
 from tests.meshes import away_from_surface, open_edges
+from tests.references.verify_meshes import pairs
 from tests.strategies import machines
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -206,6 +209,15 @@ def test_both_kinds_are_there():
     top = mesh.points[:, 2] == 20.0
     assert top.any()
     assert not np.any(np.isinf(mesh.points))
+
+
+def test_four_structures_meet_at_a_point():
+    """Where weave leaves through one face of the box, and capsize just there through the other one."""
+    family, ends = next(islice(pairs(200, seed=1), 199, None))
+    mesh = region_mesh(family, *ends, cells=20)
+    assert len(mesh.triangles) > 1000
+    assert open_edges(mesh, ends) == 0
+    assert away_from_surface(family, ends, mesh) < 1e-9
 
 
 def test_more_cells_make_a_finer_mesh():
