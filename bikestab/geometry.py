@@ -29,6 +29,11 @@ def trail_from(lam: Any, offset: Any, radius: Any) -> Any:
     return (radius * np.sin(lam) - offset) / np.cos(lam)
 
 
+def sigma_limits(lam: Any, offset: tuple[float, float], wheelbase: Any, radius: Any) -> tuple[Any, Any]:
+    """The least and the most σ at tilts λ [rad] with which the fork offset [m] is within two ends."""
+    return tuple(trail_from(lam, end, radius) / wheelbase for end in offset[::-1])
+
+
 def tilt_from(trail: Any, offset: Any, radius: Any) -> Any:
     """The tilt λ [rad] with which an offset gives a trail, both in metres; NaN where none does.
 

@@ -95,7 +95,8 @@ class _Search:
 
     def best(self, criterion: Criterion) -> Found:
         starts = self.starts(self.on_grid(criterion))
-        return minimise(partial(criterion, self.wanted), self.low, self.high, starts, self.step)
+        end = minimise(partial(criterion, self.wanted), self.low, self.high, starts, self.step)
+        return Found(self.wanted.within(end.x), end.value)
 
     def starts(self, on_grid: Floats) -> Floats:
         """Points (S, 2) of the grid at its lowest local minima, behind those known otherwise."""
@@ -113,7 +114,7 @@ def _front(search: _Search, widest: Found, fastest: Found) -> list[Found]:
         on_grid = np.where((wide > 0) & (growth < 0), -wide, WORSE + np.maximum(growth, 0))
         starts = np.array([fastest.x, *search.starts(on_grid)])
         cost = partial(width_if_decaying, wanted)
-        top = minimise(cost, search.low, search.high, starts, search.step).x
+        top = wanted.within(minimise(cost, search.low, search.high, starts, search.step).x)
     (most, least), (slow, fast) = width_and_decay(wanted, np.stack([top, fastest.x], axis=-1))
     part = np.arange(1, FRONT + 1)[:, np.newaxis] / (FRONT + 1)
     widths, rates = most + part * (least - most), slow + part * (fast - slow)
@@ -132,7 +133,7 @@ def _front(search: _Search, widest: Found, fastest: Found) -> list[Found]:
     between = minimise_all(
         partial(width_and_decay, wanted), costs, search.low, search.high, points, search.step
     )
-    x = np.stack([top, *between, fastest.x], axis=-1)
+    x = wanted.within(np.stack([top, *between, fastest.x], axis=-1))
     wide, growth = width_and_decay(wanted, x)
     better = (wide >= wide[:, np.newaxis]) & (growth <= growth[:, np.newaxis])
     better &= (wide > wide[:, np.newaxis]) | (growth < growth[:, np.newaxis])

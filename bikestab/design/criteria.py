@@ -1,61 +1,20 @@
-"""What is asked of a design, and how good designs are by each criterion; arrays of designs at once."""
+"""How good designs are by each criterion; arrays of designs at once."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.errors import InputError
-from bikestab.family import Family
-from bikestab.limits import check_speed
+from bikestab.design.wanted import Wanted as Wanted
 from bikestab.model import Floats
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import Intervals, intervals_of
 
-Range = tuple[float, float]
-LAM_RANGE, SIGMA_RANGE, V_MAX = (0.0, 0.6), (0.0, 0.3), 30.0  # rad, 1, m/s
 WORSE = 1e6  # what makes a design that is not allowed worse than all that are
 _SAMPLES, _CHUNK = 33, 1024
 _COARSE, _FINE, _FINEST = 2, 4, 7  # rounds of sampling the speeds, each 16 times as fine as the one before
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """A box of designs of a family, perhaps cut by a range of trail [m], and what is asked of one in it.
-
-    The default box is one of λ [rad] and σ; ``trail`` cuts the latter only.
-
-    Stable intervals count up to ``V_max`` [m/s], and those that start above it not at all; with ``stable``
-    only one that contains these speeds [m/s] counts. Decay is judged at the worst of the speeds
-    ``judged``, or, where that is None, at each design's best speed. Raises InputError for contradictions.
-    """
-
-    family: Family
-    x: Range = LAM_RANGE
-    y: Range = SIGMA_RANGE
-    trail: Range | None = None
-    V_max: float = V_MAX
-    judged: Range | None = None
-    stable: Range | None = None
-
-    def __post_init__(self) -> None:
-        _check(self)
-
-    @property
-    def box(self) -> tuple[Floats, Floats]:
-        """The lowest and the highest (x, y)."""
-        low, high = self.y
-        if self.trail:
-            c = self.family.bicycle.c
-            low, high = max(low, self.trail[0] / c), min(high, self.trail[1] / c)
-        return np.array([self.x[0], low]), np.array([self.x[1], high])
-
-    def table(self, x: Floats) -> Floats:
-        """Characteristic tables of designs x (2, *shape)."""
-        return self.family.quick_table(x[0], x[1])
 
 
 class Counted(NamedTuple):
@@ -82,14 +41,14 @@ def counted(wanted: Wanted, table: Floats) -> Counted:
 
 def width(wanted: Wanted, x: Floats) -> Floats:
     """Minus the widest interval [m/s] of designs x (2, S); smaller is better in each criterion."""
-    table = wanted.table(x)
+    table = wanted.table(wanted.within(x))
     widest = counted(wanted, table).width.max(axis=-1)
     return _or_miss(wanted, table, widest > 0, -widest)
 
 
 def lowest(wanted: Wanted, x: Floats) -> Floats:
     """The lowest stable speed V1 [m/s]."""
-    table = wanted.table(x)
+    table = wanted.table(wanted.within(x))
     found = counted(wanted, table)
     V1 = np.where(found.counts, found.intervals.V1, np.inf).min(axis=-1)
     return _or_miss(wanted, table, np.isfinite(V1), V1)
@@ -97,7 +56,7 @@ def lowest(wanted: Wanted, x: Floats) -> Floats:
 
 def decay(wanted: Wanted, x: Floats) -> Floats:
     """The growth rate [s⁻¹] as judged. Unstable designs are allowed unless stable speeds are asked for."""
-    table = wanted.table(x)
+    table = wanted.table(wanted.within(x))
     found = counted(wanted, table)
     allowed = np.logical_or(found.any, wanted.stable is None)
     return _or_miss(wanted, table, allowed, judged(wanted, table, found)[1])
@@ -105,7 +64,7 @@ def decay(wanted: Wanted, x: Floats) -> Floats:
 
 def width_and_decay(wanted: Wanted, x: Floats) -> Floats:
     """The widest interval [m/s], 0 without one, and the growth rate [s⁻¹] as judged; shape (2, S)."""
-    table = wanted.table(x)
+    table = wanted.table(wanted.within(x))
     found = counted(wanted, table)
     growth = judged(wanted, table, found)[1]
     return np.stack([found.width.max(axis=-1), np.minimum(growth, WORSE / 2)])
@@ -119,7 +78,7 @@ def width_if_decaying(wanted: Wanted, x: Floats) -> Floats:
 
 def miss(wanted: Wanted, x: Floats) -> Floats:
     """How far [s⁻¹] designs are from being allowed, 0 where they are."""
-    table = wanted.table(x)
+    table = wanted.table(wanted.within(x))
     allowed = counted(wanted, table).any
     return np.maximum(_or_miss(wanted, table, allowed, np.zeros(len(allowed))) - WORSE, 0)
 
@@ -182,42 +141,3 @@ def _or_miss(wanted: Wanted, table: Floats, allowed: NDArray[np.bool_], values: 
         rate = missed_by(wanted, table[..., ~allowed])[1]
         result[~allowed] = WORSE + np.clip(rate, 1e-9, WORSE / 2)
     return result
-
-
-def _check(wanted: Wanted) -> None:
-    family = wanted.family
-    ranges = {family.x: wanted.x, family.y: wanted.y}
-    ranges |= {name: getattr(wanted, name) for name in ("trail", "judged", "stable") if getattr(wanted, name)}
-    for name, ends in ranges.items():
-        if not ends[0] <= ends[1]:
-            problem = f"the range {ends[0]:g}:{ends[1]:g} ends before it starts"
-            raise InputError(problem, key=(name,), hint=f"did you mean {ends[1]:g}:{ends[0]:g}?")
-        if name in ("judged", "stable") and ends[0] < 0:
-            raise InputError(f"{ends[0]:g} m/s is negative", key=(name,), hint="allowed: 0 and above")
-        if name in ("judged", "stable"):
-            check_speed(ends[1], (name,))
-    for x in wanted.x:
-        for y in wanted.y:
-            family.check(x, y)
-    if not 0 < wanted.V_max <= 1e4:
-        hint = "allowed: above 0, up to 10000 m/s"
-        raise InputError(f"{wanted.V_max:g} m/s is no cap for the speed", key=("V_max",), hint=hint)
-    if wanted.stable and wanted.stable[1] > wanted.V_max:
-        problem = f"{wanted.stable[1]:g} m/s is above {wanted.V_max:g} m/s, up to which intervals count"
-        raise InputError(problem, key=("stable",), hint=f"raise V_max to {wanted.stable[1]:g} at least")
-    if wanted.trail:
-        _check_trail_range(wanted, wanted.trail)
-
-
-def _check_trail_range(wanted: Wanted, trail: Range) -> None:
-    if wanted.family.y != "sigma":
-        problem = f"a range of trail cuts one of sigma, not of {wanted.family.y}"
-        raise InputError(problem, key=("trail",), hint="leave it out")
-    if wanted.box[0][1] > wanted.box[1][1]:
-        c = wanted.family.bicycle.c
-        low, high = (end / c for end in trail)
-        raise InputError(
-            f"on a wheelbase of {c:g} m this is σ = {low:g} ... {high:g}, "
-            f"none of which is in σ = {wanted.y[0]:g} ... {wanted.y[1]:g}",
-            key=("trail",), hint="widen one of the two",
-        )  # fmt: skip

@@ -19,6 +19,7 @@ _VANISHING = 0.01  # m/s: an optimum at the rim whose interval is narrower has a
 _BESIDE = 1e-4  # share of the box's sides at which the neighbours of an optimum are looked at
 _JUMP = 1e-3  # share of its value by which an optimum at a jump is better than a close neighbour
 _TOUCH = 1e-3  # m/s
+_SAME_OFFSET = 1e-7  # m
 
 Criterion = Callable[[Wanted, Floats], Floats]
 Pick = Literal["widest", "lowest", "judged"]
@@ -48,8 +49,7 @@ def own_design(wanted: Wanted) -> JudgedDesign | None:
     if None in own:
         return None
     x = np.array(own, dtype=float)
-    low, high = wanted.box
-    inside = bool(np.all((low <= x) & (x <= high)))
+    inside = wanted.contains(x)
     allowed = bool(counted(wanted, wanted.table(x[:, np.newaxis])).any[0])
     at = "" if inside and allowed else "not stable as asked" if inside else "outside the box"
     return judged_design(wanted if allowed else replace(wanted, stable=None), x, at=at)
@@ -89,9 +89,11 @@ def place_of(wanted: Wanted, criterion: Criterion, best: Found) -> str:
     size = high - low
     places = []
     for i, name in enumerate((wanted.family.x, wanted.family.y)):
-        for end, given in ((low[i], wanted.y[0]), (high[i], wanted.y[1])):
-            if size[i] and abs(best.x[i] - end) <= 1e-6 * size[i]:
-                places.append(f"limit of {'trail' if i and end != given else name}")
+        for end, given in zip((low[i], high[i]), (wanted.x, wanted.y)[i], strict=True):
+            if size[i] and abs(best.x[i] - end) <= 1e-6 * size[i] and (i or end == given):
+                places.append(f"limit of {'trail' if end != given else name}")
+    if wanted.offset and min(abs(wanted.offset_at(best.x) - end) for end in wanted.offset) <= _SAME_OFFSET:
+        places.append("limit of offset")
     near, far = (_beside(wanted, criterion, best.x, share * size) for share in (0.1 * _BESIDE, _BESIDE))
     if far >= WORSE:
         places.append("edge of the speeds asked for" if _touches(wanted, best.x) else _rim(wanted, best.x))
@@ -104,7 +106,7 @@ def _beside(wanted: Wanted, criterion: Criterion, x: Floats, radii: Floats) -> f
     """The worst value on an ellipse around a design."""
     angle = 2 * np.pi * np.arange(16) / 16
     points = x[:, np.newaxis] + radii[:, np.newaxis] * np.array([np.cos(angle), np.sin(angle)])
-    return float(criterion(wanted, np.clip(points, *(end[:, np.newaxis] for end in wanted.box))).max())
+    return float(criterion(wanted, points).max())  # which moves them into the limits
 
 
 def _rim(wanted: Wanted, x: Floats) -> str:

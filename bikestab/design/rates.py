@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.design.criteria import V_MAX, extreme
+from bikestab.design.criteria import extreme
+from bikestab.design.wanted import V_MAX
 from bikestab.model import Floats
 from bikestab.slopes import Slopes
 from bikestab.spectrum import eigenvalues_of, growth_rate_of

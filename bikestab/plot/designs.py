@@ -18,7 +18,7 @@ from bikestab.design.criteria import Wanted, counted
 from bikestab.model import Floats
 from bikestab.plot.axes import HALO, label_axes, remarks
 from bikestab.plot.headings import set_title, short
-from bikestab.plot.lines import draw_on_white, entry, legend_below
+from bikestab.plot.lines import draw_on_white, entry, legend_below, straight_fork
 from bikestab.plot.settings import own_settings
 
 # the upper part of cividis: blue is narrow, yellow is wide, and black lines can be read on all of it
@@ -66,6 +66,7 @@ def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Fi
     ax.set_facecolor("white")
     handles = _widths(figure, ax, wanted, x, y)
     handles += _curves(ax, curves)
+    handles += straight_fork(ax, wanted.family.bicycle)
     handles += _optima(ax, best)
     bicycle = wanted.family.bicycle
     label_axes(ax, "lam", "sigma", bicycle.c)
@@ -120,8 +121,9 @@ def _colour(figure: Figure, ax: Axes, x: Floats, y: Floats, width: Floats) -> No
 def _refused(ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> list[Any]:
     """Hatches over the designs that are not as asked for; what the legend says of them."""
     X, Y = np.meshgrid(x, y)
-    low, high = wanted.box
-    refused = (low[1] > Y) | (high[1] < Y)
+    allowed = wanted.within(np.stack([X, Y]))
+    refused = np.any(np.abs(allowed - [X, Y]) > 1e-9, axis=0)
+    elsewhere = bool(refused.any())
     if wanted.stable:
         refused |= ~counted(wanted, wanted.table(np.stack([X, Y]))).any
     if not refused.any():
@@ -130,7 +132,9 @@ def _refused(ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> list[Any]:
     _hatch(ax, x, y, refused, "////", "0.45")
     A, B = wanted.stable or (0.0, 0.0)
     asked = [f"not stable from {A:g} to {B:g} m/s"] if wanted.stable else []
-    asked += ["other trail"] if low[1] > wanted.y[0] or high[1] < wanted.y[1] else []
+    asked += [
+        " or ".join(f"other {name}" for name in ("trail", "offset") if getattr(wanted, name))
+    ] * elsewhere
     return [_patch("////", "0.45", " or ".join(asked), "0.92")]
 
 

@@ -5,15 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from bikestab.bicycle import Bicycle
+from bikestab.geometry import trail_from
 from bikestab.model import Floats
 
 # what bounds the stable region, by the condition that is zero there: its name and its line
 EDGES: dict[str, tuple[str, Any]] = {"hurwitz3": ("weave", "-"), "p0": ("capsize", (0, (5, 1.5)))}
+
+
+STRAIGHT = (0, (7, 2, 1, 2))  # where the fork is straight
 
 
 def draw_on_white(ax: Axes, curves: Iterable[Sequence[Floats]], *, lw: float, **style: Any) -> None:
@@ -23,6 +29,21 @@ def draw_on_white(ax: Axes, curves: Iterable[Sequence[Floats]], *, lw: float, **
         ax.plot(x, y, color="white", lw=lw + 2, alpha=0.8, solid_capstyle="round", zorder=style.get("zorder"))
     for x, y in curves:
         ax.plot(x, y, lw=lw, **style)
+
+
+def straight_fork(ax: Axes, bicycle: Bicycle) -> list[Line2D]:
+    """The line in axes of λ and σ on which the fork offset b is zero; what the legend says of it, if drawn.
+
+    Above it forks are bent backwards, below it forwards: σ = R2 tan λ / c.
+    """
+    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+    lam = np.linspace(left, right, 241)
+    sigma = trail_from(lam, 0.0, bicycle.R2) / bicycle.c
+    shown = (low <= sigma) & (sigma <= high)
+    if not shown.any():
+        return []
+    draw_on_white(ax, [(lam, np.where(shown, sigma, np.nan))], lw=1.2, color="0.25", ls=STRAIGHT)
+    return [entry("fork offset b = 0 (below: forwards)", lw=1.2, color="0.25", ls=STRAIGHT)]
 
 
 def entry(label: str, *, lw: float = 1.8, **style: Any) -> Line2D:

@@ -17,7 +17,7 @@ from bikestab.model import Floats
 from bikestab.plot.axes import SYMBOLS, head_angle, label_axes, remarks
 from bikestab.plot.colours import GROWTH, colour_growth_rate, colour_probability
 from bikestab.plot.headings import set_title, short
-from bikestab.plot.lines import EDGES, draw_on_white, entry, legend_below
+from bikestab.plot.lines import EDGES, draw_on_white, entry, legend_below, straight_fork
 from bikestab.plot.settings import own_settings
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import conditions, violated
@@ -57,10 +57,14 @@ def draw_slice(
     ax = figure.add_subplot()
     if field == "probability":
         colour_probability(figure, ax, x, y, _stored(volume, field, fixed, near), volume.samples)
-        legend_below(figure, _edges(ax, section, x, y, "boundary without the spread"))
+        handles = _edges(ax, section, x, y, "boundary without the spread")
     else:
         colour_growth_rate(figure, ax, x, y, _growth_rate(volume, section, fixed, x, y, near))
-        legend_below(figure, _stable_region(ax, section, x, y))
+        handles = _stable_region(ax, section, x, y)
+    if fixed == "V" and handles:
+        ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+        handles += straight_fork(ax, volume.bicycle)
+    legend_below(figure, handles)
     _decorate(ax, volume, section)
     return figure
 

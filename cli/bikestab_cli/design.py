@@ -46,6 +46,10 @@ if TYPE_CHECKING:
 @click.option(
     "--trail", type=LENGTH_ENDS, metavar="START:STOP", help="Trails, such as 40mm:80mm; cuts --sigma."
 )
+@click.option("--head-angle", type=ANGLE_ENDS, metavar="START:STOP", help="Head angles, instead of --lam.")
+@click.option(
+    "--offset", type=LENGTH_ENDS, metavar="START:STOP", help="Fork offsets, such as 0:80mm; cuts the box."
+)
 @click.option(
     "--V",
     "judged",
@@ -78,6 +82,8 @@ def command(
     lam: Ends,
     sigma: Ends,
     trail: Ends | None,
+    head_angle: Ends | None,
+    offset: Ends | None,
     judged: Ends | None,
     stable: Ends | None,
     V_max: float,
@@ -103,6 +109,7 @@ def command(
       bikestab design --bicycle meijaard2007 --V 5
       bikestab design --lam 10deg:25deg --trail 0.05:0.12 --stable 16km/h:5
       bikestab design --sigma 0.08 --V 4:6 --json
+      bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
     from bikestab_cli.design_words import told
@@ -113,9 +120,11 @@ def command(
     from bikestab.family import Family
     from bikestab.files import to_stdout
 
+    if head_angle:
+        lam = _tilts(head_angle)
     bicycle = load_bicycle(bicycle_name, delta)
     with told_as_options(judged="--V", V_max="--V-max"):
-        wanted = Wanted(Family(bicycle, model), lam, sigma, trail, V_max, judged, stable)
+        wanted = Wanted(Family(bicycle, model), lam, sigma, trail, V_max, judged, stable, offset)
     if output:
         _check_picture(output, lam, sigma)
     check_files(csv_file, output)
@@ -136,11 +145,21 @@ def command(
         files["picture"] = output
     if as_json:
         head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "lam": lam, "sigma": sigma}
-        head |= {"trail": trail, "V_max": V_max, "judged": judged, "stable": stable}
+        head |= {"trail": trail, "offset": offset, "V_max": V_max, "judged": judged, "stable": stable}
         print_json({**head, **best._asdict(), **files})
     else:
         for kind, name in files.items():
             click.echo(f"{kind}: {name}", err=to_stdout(name))
+
+
+def _tilts(head_angles: Ends) -> Ends:
+    from bikestab.geometry import tilt_of
+
+    if click.get_current_context().get_parameter_source("lam") != click.core.ParameterSource.DEFAULT:
+        problem = "--lam and --head-angle are one range: give one of them"
+        raise click.UsageError(problem, click.get_current_context())
+    low, high = (tilt_of(angle) for angle in head_angles[::-1])
+    return low, high
 
 
 def _check_picture(output: str, lam: Ends, sigma: Ends) -> None:

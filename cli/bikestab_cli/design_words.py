@@ -20,6 +20,7 @@ def told(wanted: Wanted, best: Best) -> str:
         f"{heading(bicycle, wanted.family.model)}\n"
         f"searched: λ = {low[0]:.6g} ... {high[0]:.6g} rad, σ = {low[1]:.6g} ... {high[1]:.6g} "
         f"(trail {low[1] * bicycle.c:.4f} ... {high[1] * bicycle.c:.4f} m)"
+        + (", offset {:g} ... {:g} m".format(*wanted.offset) if wanted.offset else "")
         + (f", stable from {wanted.stable[0]:g} to {wanted.stable[1]:g} m/s" if wanted.stable else "")
         + f"\ndecay: growth rate {_where_judged(wanted)}"
     ]
@@ -56,7 +57,8 @@ def _nothing(wanted: Wanted, closest: JudgedDesign) -> str:
     return (
         f"no design was found {asked}\n"
         f"closest: λ = {closest['lam']:.6g}, σ = {closest['sigma']:.6g}{how}\n"
-        f"what may help: {loosen}a larger range of --lam or --sigma{' or --trail' if wanted.trail else ''}, "
+        f"what may help: {loosen}a larger range of --lam or --sigma{' or --trail' if wanted.trail else ''}"
+        f"{' or --offset' if wanted.offset else ''}, "
         "or --delta"
     )
 

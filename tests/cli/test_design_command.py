@@ -51,7 +51,7 @@ def test_json_and_its_schema(design):
     found = json.loads(out, parse_constant=pytest.fail)
     jsonschema.validate(found, SCHEMA)
     assert list(found) == [
-        "bicycle", "model", "delta", "lam", "sigma", "trail", "V_max", "judged", "stable",
+        "bicycle", "model", "delta", "lam", "sigma", "trail", "offset", "V_max", "judged", "stable",
         "own", "widest", "lowest_V1", "fastest_decay", "pareto", "closest",
     ]  # fmt: skip
     assert found["judged"] == [5, 5]

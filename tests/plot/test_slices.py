@@ -66,6 +66,9 @@ def texts(figure):
 # --- what is drawn
 
 
+STRAIGHT = "fork offset b = 0 (below: forwards)"
+
+
 @pytest.mark.parametrize(
     ("fixed", "value", "expected"),
     [
@@ -73,8 +76,8 @@ def texts(figure):
         ("lam", 0.05, ["stable", "weave boundary"]),
         ("sigma", 0.08, ["stable", "weave boundary", "capsize boundary"]),
         ("sigma", 0.15, ["stable", "weave boundary", "capsize boundary"]),
-        ("V", 5.0, ["stable", "weave boundary", "capsize boundary"]),
-        ("V", 14.0, ["stable", "weave boundary", "capsize boundary"]),
+        ("V", 5.0, ["stable", "weave boundary", "capsize boundary", STRAIGHT]),
+        ("V", 14.0, ["stable", "weave boundary", "capsize boundary", STRAIGHT]),
         ("lam", 0.0, []),
         ("V", 1.0, []),
         ("sigma", 0.0, []),
@@ -219,3 +222,12 @@ def test_the_same_picture_twice(volume, draw, tmp_path):
 def test_a_plane_outside_the_volume(volume, fixed, value):
     with pytest.raises(InputError, match=r"is outside the volume\nallowed: 0 \.\.\. "):
         draw_slice(volume, fixed, value)
+
+
+def test_the_line_of_straight_forks(draw):
+    """σ = R2 tan λ / c, from the wheel's axle above the point where the steering axis meets the ground."""
+    (line,) = (each for each in draw("V", 5.0).axes[0].lines if each.get_color() == "0.25")
+    lam, sigma = line.get_data()
+    shown = np.isfinite(sigma)
+    assert shown.sum() > 20
+    np.testing.assert_allclose(sigma[shown], 0.35 * np.tan(lam[shown]) / 1.04, rtol=1e-12)
