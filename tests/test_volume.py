@@ -10,7 +10,7 @@ from bikestab import __version__
 from bikestab.bicycle import Bicycle
 from bikestab.export.summary import summary
 from bikestab.fields import AXES
-from bikestab.model import characteristic_table, exact_table
+from bikestab.model import exact_table, exact_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scan.labels import MARGINAL
 from bikestab.scan.run import run_scan
@@ -22,7 +22,7 @@ from tests.volumes import EQUAL, OWN, config_of
 
 def columns_of(config):
     lam, sigma = config.grid.values("lam"), config.grid.values("sigma")
-    return characteristic_table(config.machine, lam[:, np.newaxis], sigma, model=config.model)
+    return exact_table(config.machine, lam[:, np.newaxis], sigma, model=config.model).value
 
 
 def points_of(config):
@@ -138,7 +138,7 @@ def test_fields_are_the_conditions_and_the_growth_rate(equal):
 
 def test_axes_are_in_the_order_lam_sigma_V(equal):
     path, config = equal
-    one = characteristic_table(config.machine, 0.2, 0.075)
+    one = exact_table(config.machine, 0.2, 0.075).value
     with h5py.File(path) as file:
         i, j = (
             int(np.argmin(abs(file[name][()] - value))) for name, value in (("lam", 0.2), ("sigma", 0.075))

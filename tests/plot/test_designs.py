@@ -41,7 +41,7 @@ def test_colours_are_the_widths():
     (mesh,) = (item for item in ax.collections if isinstance(item, QuadMesh))
     values, corners = mesh.get_array(), mesh.get_coordinates()
     middle = (corners[1:, 1:] + corners[:-1, :-1]) / 2
-    V1, V2 = intervals_of(characteristic_table(DIKAREV, middle[..., 0], middle[..., 1]))[:2]
+    V1, V2, *_ = intervals_of(characteristic_table(DIKAREV, middle[..., 0], middle[..., 1]))
     width = np.where(V1 < 30, np.minimum(V2, 30) - V1, 0).max(axis=-1)
     assert values.filled(0) == pytest.approx(width, abs=1e-6)
     assert np.array_equal(np.ma.getmaskarray(values), width == 0)
