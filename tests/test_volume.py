@@ -10,7 +10,7 @@ from bikestab import __version__
 from bikestab.bicycle import Bicycle
 from bikestab.export.summary import summary
 from bikestab.fields import AXES
-from bikestab.model import exact_table, exact_table
+from bikestab.model import exact_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scan.labels import MARGINAL
 from bikestab.scan.run import run_scan

@@ -138,7 +138,7 @@ def _machine(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) 
         if not equals:
             raise click.BadParameter(f"{text!r} is not NAME=VALUE, e.g. delta=1", param=option)
         try:
-            values[name.strip()] = quantity(number, _units_of(name.strip()))
+            values[name.strip()] = quantity(number, units_of(name.strip()))
         except InputError as error:
             raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
     return values
@@ -157,7 +157,7 @@ def _deviations(
     return "file" in texts, given
 
 
-def _units_of(parameter: str) -> Units:
+def units_of(parameter: str) -> Units:
     from bikestab.bicycle import PAPER
     from bikestab.notation import MEIJAARD
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_designs, is_single
-from bikestab_cli.options import json_option, load_bicycle, machine_options, sd_option, told_as_options
+from bikestab_cli.options import json_option, sd_option, told_as_options
 from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, print_json, table
+from bikestab_cli.several import Chosen, Values, machines_chosen, several_machines
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -21,12 +22,13 @@ MOST_SPREADS = 100  # designs at once
 
 @click.command("vrange")
 @design_options(ranges=True)
-@machine_options
+@several_machines
 @sd_option
 @json_option
 def command(
     given: Given,
-    bicycle_name: str,
+    bicycle_name: tuple[str, ...],
+    changes: Values,
     model: Model,
     delta: float | None,
     deviations: tuple[bool, dict[str, float]],
@@ -36,7 +38,7 @@ def command(
 
     The ends are exact roots, not read off a grid, and each is named: weave (an oscillation starts), capsize
     (a slow fall starts), rest (V = 0) or unbounded. Without a tilt or a trail the bicycle's own are
-    taken. A range START:STOP:NUM gives a table.
+    taken. A range START:STOP:NUM gives a table, and so do several --bicycle and several values of --set.
 
     Two of head angle, trail and fork offset give the third; an offset alone keeps the bicycle's head angle.
 
@@ -61,29 +63,67 @@ def command(
       bikestab vrange --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
       bikestab vrange --head-angle 71deg --trail 55mm
       bikestab vrange --bicycle meijaard2007 --head-angle 68deg:74deg:7 --offset 45mm
+      bikestab vrange --bicycle meijaard2007 --bicycle kooijman2011
+      bikestab vrange --bicycle meijaard2007 --set mB=60,75,100
     """
-    from bikestab_cli.spread_words import in_one_line
+    machines = machines_chosen(bicycle_name, delta, changes)
+    single = is_single(given) and len(machines) == 1
+    found = [_found(machine, given, model, deviations, as_json or single) for machine in machines]
+    if as_json:
+        print_json(_record(found, model))
+    elif len(machines) == 1:
+        _tell_one(found[0], model, single)
+    else:
+        _tell_all(found, model)
 
+
+class _Found(NamedTuple):
+    machine: Chosen
+    answers: list[Answer]
+    spreads: list[Spread]
+
+
+def _found(
+    machine: Chosen, given: Given, model: Model, deviations: tuple[bool, dict[str, float]], nearest: bool
+) -> _Found:
+    """The answers about one machine; a table has no room for what is ``nearest``."""
     from bikestab.region.answers import stable_speeds
 
-    bicycle = load_bicycle(bicycle_name, delta)
+    bicycle = machine.bicycle
     lam, sigma = designs_chosen(bicycle, given)
-    single = is_single(given)
-    with told_as_options():  # a table has no room for what is nearest
-        answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=as_json or single)
-    spreads = _spreads(answers, bicycle, model, *deviations)
+    with told_as_options():
+        answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=nearest)
     least = [min((answer[name] for answer in answers), key=abs) for name in ("lam", "sigma")]
     doubt_designs(given, least[0], least[1], bicycle.c)
-    if as_json:
-        from bikestab.design.spread import plain
+    return _Found(machine, answers, _spreads(answers, bicycle, model, *deviations))
 
-        records = [
-            {**answer, "spread": plain(known)} for answer, known in zip(answers, spreads, strict=False)
-        ]
-        answers = records or answers  # type: ignore[assignment]  # for JSON alone
-        print_json({"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "results": answers})
-        return
-    click.echo(heading(bicycle, model) + "\n")
+
+def _record(found: list[_Found], model: Model) -> dict[str, Any]:
+    """What --json prints; of several machines each result tells which it is of."""
+    from bikestab.design.spread import plain
+
+    several = len(found) > 1 or found[0].machine.set
+    results = []
+    for machine, answers, spreads in found:
+        whose = {"bicycle": machine.bicycle.name, "set": machine.set} if several else {}
+        known = [{"spread": plain(spread)} for spread in spreads] or [{}] * len(answers)
+        results += [{**whose, **answer, **more} for answer, more in zip(answers, known, strict=True)]
+    bicycles = [each.machine.bicycle for each in found]
+    names, deltas = ([*dict.fromkeys(x)] for x in ([b.name for b in bicycles], [b.delta for b in bicycles]))
+    return {
+        "bicycle": names[0] if len(names) == 1 else names,
+        "model": model,
+        "delta": deltas[0] if len(deltas) == 1 else deltas,
+        "results": results,
+    }
+
+
+def _tell_one(found: _Found, model: Model, single: bool) -> None:
+    from bikestab_cli.spread_words import in_one_line
+
+    machine, answers, spreads = found
+    changed = f" ({machine.words.partition(' ')[2]})" if machine.set else ""
+    click.echo(heading(machine.bicycle, model) + changed + "\n")
     click.echo(table([*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], _rows(answers)))
     for answer in answers:
         if answer["marginal"]:
@@ -91,7 +131,24 @@ def command(
     for answer, known in zip(answers, spreads, strict=False):
         click.echo(("" if single else f"{_design(answer)}: ") + in_one_line(known))
     if single and answers[0]["nearest"]:
-        click.echo("\n" + _advice(answers[0], bicycle, model))
+        click.echo("\n" + _advice(answers[0], machine.bicycle, model))
+
+
+def _tell_all(found: list[_Found], model: Model) -> None:
+    """One table of several machines."""
+    from bikestab_cli.spread_words import in_one_line
+
+    rows, notes = [], []
+    for machine, answers, spreads in found:
+        lines = _rows(answers)
+        rows += [[machine.words if i == 0 else "", *line] for i, line in enumerate(lines)]
+        open_ = [(answer, f"marginal: {answer['reason']}") for answer in answers if answer["marginal"]]
+        known = [(answer, in_one_line(each)) for answer, each in zip(answers, spreads, strict=False)]
+        notes += [f"{machine.words} at {_design(answer)}: {text}" for answer, text in (*open_, *known)]
+    click.echo(f"{model} model\n")
+    click.echo(table(["machine", *DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"], rows))
+    for note in notes:
+        click.echo(note)
 
 
 def _spreads(

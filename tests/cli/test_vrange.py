@@ -345,3 +345,37 @@ def test_three_that_contradict(bikestab):
     code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", *words)
     assert (code, out) == (2, "")
     assert "offset of 45 mm give a trail of 66.4061 mm, not 50 mm; give two of" in err
+
+
+def test_several_machines_in_one_table_and_json(without_warnings):
+    options = ["vrange", "--bicycle", "meijaard2007", "--bicycle", "kooijman2011", "--set", "mB=60,85"]
+    code, out, err = without_warnings(*options)
+    assert (code, err) == (0, "")
+    lines = out.splitlines()[3:]
+    assert [line.split()[:2] for line in lines][:2] == [["meijaard2007", "mB=60"], ["meijaard2007", "mB=85"]]
+    assert "4.292382536341 (weave)" in lines[1]
+    found = json.loads(without_warnings(*options, "--json")[1])
+    assert found["bicycle"] == ["meijaard2007", "kooijman2011"]
+    assert [(r["bicycle"], r["set"]) for r in found["results"]] == [
+        (name, {"mB": mass}) for name in ("meijaard2007", "kooijman2011") for mass in (60.0, 85.0)
+    ]
+    alone = json.loads(without_warnings("vrange", "--bicycle", "meijaard2007", "--json")[1])
+    assert found["results"][1]["intervals"] == alone["results"][0]["intervals"]
+    assert "set" not in alone["results"][0]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("mX=60", "mX"),
+        ("mB", "is not NAME=VALUE"),
+        ("mB=60,", "''"),
+        ("mB=-1,2", "mB: -1 is not"),
+        ("mB=60 m", "kg"),
+    ],
+)
+def test_values_that_cannot_be_set(without_warnings, text, words):
+    code, out, err = without_warnings("vrange", "--bicycle", "meijaard2007", "--set", text)
+    assert (code, out) == (2, "")
+    assert "--set" in err
+    assert words in err

@@ -1,0 +1,86 @@
+"""The options that name several machines: --bicycle more than once, and --set with several values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import product
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+import click
+from bikestab_cli.options import DEFAULT_BICYCLE, NAME, equation_options, load_bicycle, warn
+
+from bikestab.errors import InputError
+from bikestab.units import quantity
+
+if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
+
+F = TypeVar("F", bound=Callable[..., Any])
+Values = dict[str, list[float]]
+MOST_MACHINES = 1000
+
+
+class Chosen(NamedTuple):
+    """A machine, and the parameters that --set gives it."""
+
+    bicycle: Bicycle
+    set: dict[str, float]
+
+    @property
+    def words(self) -> str:
+        """What tells it from the others."""
+        return " ".join([self.bicycle.name, *(f"{name}={value:g}" for name, value in self.set.items())])
+
+
+def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> Values:
+    from bikestab_cli.options import units_of
+
+    values: Values = {}
+    for text in texts:
+        name, equals, numbers = text.partition("=")
+        name = name.strip()
+        if not equals or not name:
+            raise click.BadParameter(f"{text!r} is not NAME=VALUE, e.g. mB=60,75,100", param=option)
+        if name in values:
+            raise click.BadParameter(f"{name} is set twice", param=option)
+        try:
+            values[name] = [quantity(number, units_of(name)) for number in numbers.split(",")]
+        except InputError as error:
+            raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
+    return values
+
+
+def several_machines(function: F) -> F:
+    """--bicycle and --set, each more than once, --model and --delta."""
+    named = click.option(
+        "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", multiple=True,
+        default=(DEFAULT_BICYCLE,), show_default=True,
+        help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a file of one; several.",
+    )  # fmt: skip
+    changed = click.option(
+        "--set", "changes", metavar="NAME=VALUE,...", multiple=True, callback=_values,
+        help="Other values of a parameter in the bicycle's notation, e.g. mB=60,75,100 or rider.m=60,100.",
+    )  # fmt: skip
+    return named(changed(equation_options(function)))
+
+
+def machines_chosen(names: tuple[str, ...], delta: float | None, changes: Values) -> list[Chosen]:
+    """Every bicycle with every combination of the values that are set."""
+    combinations = list(product(*changes.values()))
+    if len(names) * len(combinations) > MOST_MACHINES:
+        problem = f"{len(names) * len(combinations)} machines are too many; allowed: {MOST_MACHINES}"
+        raise click.UsageError(problem, click.get_current_context())
+    machines = []
+    for name in names:
+        own = load_bicycle(name, delta)
+        for combination in combinations:
+            values = dict(zip(changes, combination, strict=True))
+            try:
+                bicycle = own.replaced(values) if values else own
+            except InputError as error:
+                problem = f"{error.key[0] if error.key else values}: {error.problem}; {error.hint}"
+                raise click.BadParameter(problem, param_hint="--set") from None
+            if values:
+                warn(bicycle)
+            machines.append(Chosen(bicycle, values))
+    return machines
