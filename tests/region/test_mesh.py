@@ -118,6 +118,7 @@ def test_sheets_are_the_ends_of_the_intervals(case):
     bicycle, ends, mesh = case
     shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
     for upper in (False, True):
+        # a wall reaches from one end of an interval to the other: its corners are of both sheets
         index = np.setdiff1d(mesh.triangles[(mesh.upper == upper) & ~mesh.wall], shared)
         points = mesh.points[index]
         points = points[np.all((points > np.array(ends)[:, 0]) & (points < np.array(ends)[:, 1]), axis=1)]
@@ -129,6 +130,7 @@ def test_sheets_are_the_ends_of_the_intervals(case):
 
 def test_the_rim_is_the_skeleton(case):
     bicycle, ends, mesh = case
+    # but for walls, which share their upper corners with an upper sheet and stand on other curves as well
     shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper & ~mesh.wall])
     rim = mesh.points[shared]
     curves = [
