@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bikestab.errors import InputError
 from bikestab.fields import AXES, FIELDS
 from bikestab.routh import CONDITIONS
-from bikestab.speeds import KINDS, REASONS
+from bikestab.speeds import KINDS, REASONS, UNBOUNDED
 
 TEXTS = (
     "title", "references", "bicycle", "bicycle_parameters", "warnings", "model", "config", "config_sha256",
@@ -67,3 +67,11 @@ def check_values(name: str, values: NDArray[Any]) -> None:
         raise InputError(problem, key=(name,))
     if name == "growth_rate" and np.isnan(values).any():
         raise InputError("has values that are no numbers", key=(name,))
+
+
+def check_ends(name: str, values: NDArray[Any], upper: NDArray[np.uint8]) -> None:
+    """Raise InputError where V1 or V2 is there without an interval, or not as ``upper`` says of it."""
+    endless = (upper == UNBOUNDED) & (name == "V2")
+    right = (np.isnan(values) == (upper == 0)) & (np.isinf(values) == endless) & ~(values < 0)
+    if not np.all(right):
+        raise InputError("has values that are not what upper says of their intervals", key=(name,))

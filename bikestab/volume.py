@@ -17,7 +17,7 @@ from bikestab.errors import InputError, nearest
 from bikestab.fields import FIELDS, Axis
 from bikestab.formats.kinds import expected
 from bikestab.hdf5 import open_file, text_of
-from bikestab.layout import check_values, machine_names, sweep_names
+from bikestab.layout import check_ends, check_values, machine_names, sweep_names
 from bikestab.model import Floats, Model
 from bikestab.volumecheck import check_volume
 from bikestab.watched import watched
@@ -67,7 +67,7 @@ class Volume:
 
         Raises InputError where the file is damaged there, or has values that the dataset cannot have.
         """
-        data = self.file[name]
+        data, whole = self.file[name], where
         if self._chosen and data.ndim > len(self._chosen) + 1:
             where = (*self._chosen.values(), *where)
         try:
@@ -77,6 +77,8 @@ class Volume:
             raise InputError(problem, place=str(self.path), hint="scan again with --force") from None
         try:
             check_values(name, values)
+            if name in ("V1", "V2"):
+                check_ends(name, values, self.read("upper", whole))
         except InputError as error:
             raise error.at(str(self.path)) from None
         return values

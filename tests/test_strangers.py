@@ -279,6 +279,28 @@ def test_values_out_of_range_are_refused_where_they_are_read(equal, tmp_path, na
         read(volume)
 
 
+@pytest.mark.parametrize("name", ["V1", "V2"])
+@pytest.mark.parametrize("value", [np.nan, -np.inf, np.inf, -1.0])
+@pytest.mark.parametrize("sweep", [False, True])
+def test_ends_that_are_not_those_of_their_intervals_are_refused(equal, others, tmp_path, name, value, sweep):
+    path = tmp_path / "copy.h5"
+    path.write_bytes(others["sweep"] if sweep else equal[0].read_bytes())
+    with h5py.File(path, "a") as file:
+        some = np.argwhere((file["upper"][()] > 0) & np.isfinite(file["V2"][()]))[0]
+        none = np.argwhere(file["upper"][()] == 0)[0]
+        file[name][tuple(some)] = value
+    with Volume(path) as volume:
+        chosen = volume.at({"delta": volume.swept["delta"][some[0]]}) if sweep else volume
+        where = tuple(map(int, some[1:] if sweep else some))
+        for part in ((), (where[0],), (slice(where[0], where[0] + 1),), where):
+            with pytest.raises(InputError, match=f"copy.h5: {name}: has values that are not what upper says"):
+                chosen.read(name, part)
+    with h5py.File(path, "a") as file:
+        file[name][tuple(none)] = 3.0
+    with Volume(path) as volume, pytest.raises(InputError, match="not what upper says"):
+        volume.read(name)
+
+
 def test_what_others_add_is_no_hindrance(equal, tmp_path):
     path = tmp_path / "copy.h5"
     path.write_bytes(equal[0].read_bytes())

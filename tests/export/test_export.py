@@ -378,9 +378,9 @@ def test_the_volume_is_read_in_layers(volume, tmp_path, monkeypatch):
     assert largest == 2 * [
         6,
         4,
-        *[4] * 7,
-        *[2] * 7,
-    ]  # λ, σ; V1, V2, lower, upper and the bounds in two layers
+        *[4] * 9,
+        *[2] * 9,
+    ]  # λ, σ; V1, V2, each with upper, lower, upper and the bounds in two layers
 
 
 def test_a_volume_of_an_earlier_build_has_no_bounds(tmp_path):

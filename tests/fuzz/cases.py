@@ -1,4 +1,4 @@
-"""Hostile cases for hypothesis: configs by their schema, damaged files, command lines."""
+"""Hostile cases for hypothesis: configs by their schema, damaged files, ``commandlines``."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from bikestab.config.scanconfig import ScanConfig
 from bikestab.fields import AXES, askable
 from bikestab.notation import MEIJAARD
 from bikestab.yamltext import copied, dumped
-from tests.fuzz.harness import KEPT, Case
+from tests.fuzz.commandlines import command_lines
+from tests.fuzz.harness import Case
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 SEEDS = [path.read_bytes() for path in sorted(CONFIGS.glob("*.yaml"))]
@@ -114,38 +115,6 @@ def damaged_bicycles(draw: Any) -> Case:
     """A bicycle's file, damaged."""
     command = draw(st.sampled_from([("vrange", "--lam", "0.2", "--sigma", "0.1"), ("vrange",), ("eigen",)]))
     return Case((*command, "--bicycle", "a.yaml"), {"a.yaml": draw(damaged(draw(st.sampled_from(BICYCLES))))})
-
-
-WORDS = [
-    "0.2", "0.08", "0:0.3:4", "18deg", "1e999", "nan", "-0", "", " ", "9" * 5000, "1" + " " * 3000 + "x",
-    "0:1:2:3", "0:1:9999999999", "a=b", "=", "delta=1", "grid.lam.num=3", "fields=[[1]]", "title={[1]: 2}",
-    "output=[]", "x" * 500, "grid=~", "expect=[{stable: never}]", "slices.0.lam=1", "\x1b[2J", "λ",
-    "\udc80", "none.yaml", ".", "a.yaml", "meijaard2007", "dikarev1981", "out.csv", "out.png", "out.xyz",
-    "5", "5:1", "a/b", "n" * 300, "loop", "refined", "--", "-", "--help", "-h",
-]  # fmt: skip
-OPTIONS = [
-    "--lam", "--sigma", "--V", "--bicycle", "--model", "--delta", "--json", "--csv", "-o", "--output",
-    "--force", "--set", "--at", "--mesh", "--intervals", "--skeleton", "--cells", "--scale",
-    "--probability", "--config", "--lamb", "-x",
-]  # fmt: skip
-COMMANDS = [
-    "vrange", "eigen", "check", "info", "slice", "export", "init", "bicycles", "schema", "scam", "",
-    "--version",
-]  # fmt: skip
-
-
-@st.composite
-def command_lines(draw: Any) -> Case:
-    """Options and words in any order. No command that may compute for long, and no file but in the folder."""
-    words = st.sampled_from([*WORDS, KEPT + "/x"])
-    args = [draw(st.sampled_from(COMMANDS))]
-    for _ in range(draw(st.integers(0, 5))):
-        args.append(draw(st.sampled_from(OPTIONS)))
-        if draw(st.integers(0, 5)):
-            args.append(draw(words))
-    if draw(st.booleans()):
-        args.append(draw(words))
-    return Case(tuple(args), {})
 
 
 KINDS: dict[str, st.SearchStrategy[Case]] = {

@@ -6,7 +6,7 @@ from hypothesis import HealthCheck, given, settings
 from tests.fuzz.cases import KINDS
 from tests.fuzz.harness import Case, Hang, judged, limited
 
-CASES = 75  # of each kind
+CASES = 100  # of each kind
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -186,11 +186,15 @@ def _content(volume):
         return found, file.attrs["config_sha256"], file.attrs["stable_points"]
 
 
-def ended(whole, kind, number):
-    """How a case ends, as an exit code."""
+def ended(whole, kind, numbers):
+    """How cases end in one process of their own, as exit codes."""
+    return alone(_all_ended, whole, kind, numbers)
+
+
+def _all_ended(whole, kind, numbers):
     if kind == "tiles":
-        return alone(resumed, whole, number)
-    return alone(told, whole[number // 2 % len(TEXTS)][0], number)
+        return [resumed(whole, number) for number in numbers]
+    return [told(whole[number // 2 % len(TEXTS)][0], number) for number in numbers]
 
 
 def main():
@@ -203,7 +207,7 @@ def main():
             codes, begin = Counter(), time.perf_counter()
             for number in range(first, first + int(cases * share)):
                 try:
-                    codes[ended(whole, kind, number)] += 1
+                    codes[ended(whole, kind, [number])[0]] += 1
                 except AssertionError as problem:
                     failed += 1
                     print(f"{kind} {number}: {str(problem)[-1500:]}")  # noqa: T201
