@@ -38,7 +38,8 @@ def _serve(pipe, case, args):
             answer = case(*args), ""
     except BaseException:
         answer = None, traceback.format_exc()
-    finally:
+    try:
         with open(pipe, "wb") as out:  # noqa: PTH123
             out.write(pickle.dumps(answer))
+    finally:  # whatever happens: a copy that went on would be a second test run
         os._exit(0)
