@@ -16,6 +16,7 @@ from bikestab.config.variation import Distribution, Ensemble
 from bikestab.errors import InputError, dotted, nearest
 from bikestab.fields import AXES
 from bikestab.formats.kinds import expected
+from bikestab.notation import MEASURED
 from bikestab.rider import flattened
 from bikestab.units import shown
 
@@ -120,7 +121,7 @@ def _known(key: tuple[str | int, ...]) -> list[str]:
     if not key:
         return list(ScanConfig.model_fields)
     if key[0] == "grid":
-        return list(AXES) if len(key) == 1 else ["start", "stop", "num", "values"]
+        return [*AXES, "head_angle", "trail"] if len(key) == 1 else ["start", "stop", "num", "values"]
     if key[0] == "sweep":
         return ["parameters of the bicycle"] if len(key) == 1 else ["start", "stop", "num", "values"]
     if key == ("ensemble",):
@@ -128,7 +129,7 @@ def _known(key: tuple[str | int, ...]) -> list[str]:
     if key[0] == "ensemble":
         return list(Distribution.model_fields)
     model = Plane if key[0] == "slices" else Expectation
-    return list(model.model_fields)
+    return [*model.model_fields, *MEASURED]
 
 
 def _override(document: yamltext.Document, override: str) -> tuple[tuple[str | int, ...], yamltext.Document]:

@@ -49,14 +49,14 @@ def check_names(
     """Raise InputError unless every varied name is a parameter of the bicycle's notation, and varied once."""
     names = [("sweep", name) for name in sweep]
     names += [("ensemble", name) for name in (ensemble.parameters if ensemble else ())]
-    on_grid = {"lam": "tilt", "sigma": "trail", "trail": "trail"}
+    on_grid = {"lam": "tilt", "head_angle": "tilt", "sigma": "trail", "trail": "trail", "offset": "trail"}
     on_grid |= {"c": "trail"} if bicycle.bodies is not None else {}
     known = [name for name in bicycle.notation if name not in on_grid]
     seen: dict[str, str] = {}
     for key in names:
         name = key[1]
         if name in on_grid:
-            axis = "lam" if name == "lam" else "sigma"
+            axis = "lam" if on_grid[name] == "tilt" else "sigma"
             raise InputError(
                 f"the grid has the {on_grid[name]}", key=key, hint=f"give its values in grid.{axis}"
             )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_
 from bikestab.bicycle import Bicycle
 from bikestab.config.inplace import IN_PLACE
 from bikestab.config.meaning import drawn_around, yaml_text
+from bikestab.config.measured import in_lam_and_sigma
 from bikestab.config.members import (
     Member,
     SweptAxis,
@@ -21,26 +22,20 @@ from bikestab.config.members import (
     members,
     swept_axes,
 )
+from bikestab.config.parts import Expectation as Expectation
+from bikestab.config.parts import Grid as Grid
+from bikestab.config.parts import Plane as Plane
 from bikestab.config.values import (
-    ABSENT,
     Damping,
     NumberAxis,
-    Speed,
-    SpeedAxis,
     Strict,
-    Tilt,
-    TiltAxis,
-    Trail,
-    TrailAxis,
-    UpperSpeed,
-    Within,
     mistake,
 )
 from bikestab.config.variation import SWEPT, Ensemble, with_units
 from bikestab.errors import InputError, nearest
-from bikestab.fields import AXES, Axis, askable
+from bikestab.fields import AXES, askable
 from bikestab.identity import identity
-from bikestab.model import Floats, Model
+from bikestab.model import Model
 from bikestab.plausible import design_doubts
 from bikestab.presets import preset_names
 from bikestab.rider import left_behind
@@ -57,65 +52,6 @@ def _field(value: object) -> str:
 FieldName: TypeAlias = Annotated[
     str, BeforeValidator(_field), WithJsonSchema({"type": "string", "enum": askable()})
 ]
-
-
-class Grid(Strict):
-    """The values of λ, σ and V whose every combination is evaluated."""
-
-    lam: Annotated[TiltAxis, Field(description="tilt of the steering axis from the vertical [rad]")]
-    sigma: Annotated[TrailAxis, Field(description="trail divided by the wheelbase [1]")]
-    V: Annotated[SpeedAxis, Field(description="forward speed [m/s]")]
-
-    @property
-    def shape(self) -> tuple[int, int, int]:
-        """Number of values of λ, σ and V."""
-        return self.lam.size, self.sigma.size, self.V.size
-
-    def values(self, name: Axis) -> Floats:
-        """The values of one axis."""
-        return getattr(self, name).points
-
-    def ends(self, name: Axis) -> tuple[float, float]:
-        """First and last value of one axis."""
-        axis = getattr(self, name)
-        return (axis.start, axis.stop) if hasattr(axis, "num") else (axis.values[0], axis.values[-1])
-
-
-class Plane(Strict):
-    """A picture across one axis, at one of its values."""
-
-    lam: Tilt = ABSENT
-    sigma: Trail = ABSENT
-    V: Speed = ABSENT
-
-    @model_validator(mode="after")
-    def _one(self) -> Plane:
-        if len(self.model_fields_set) != 1:
-            raise mistake("a slice fixes one axis", "allowed: one of {lam: ...}, {sigma: ...}, {V: ...}")
-        return self
-
-    @property
-    def fixed(self) -> tuple[Axis, float]:
-        """The axis and its value."""
-        (name,) = self.model_fields_set
-        return name, getattr(self, name)  # type: ignore[return-value]  # the fields are the axes
-
-
-class Expectation(Strict):
-    """What ``bikestab check`` compares: an interval of stable speeds, or none."""
-
-    lam: Tilt | None = None
-    sigma: Trail | None = None
-    V1: Speed | None = None
-    V2: UpperSpeed | None = None  # inf for "unbounded"
-    within: Within = 0.001
-    stable: Literal["never"] | None = None
-
-    @model_validator(mode="after")
-    def _something(self) -> Expectation:
-        if (self.stable is None) == (self.V1 is None and self.V2 is None):
-            raise mistake("expects nothing, or two things", "allowed: V1 and/or V2, or 'stable: never'")
-        return self
 
 
 def _bicycle(value: object) -> Bicycle:
@@ -161,6 +97,11 @@ class ScanConfig(Strict):
     output: Annotated[str, Field(strict=True, min_length=1, description="folder, from the current directory")]
     expect: Annotated[list[Expectation], Field(description="what 'bikestab check' compares")] = []
     _text: str = PrivateAttr("")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _measured(cls, given: Any) -> Any:
+        return in_lam_and_sigma(given)
 
     @model_validator(mode="after")
     def _consistent(self) -> ScanConfig:

@@ -6,7 +6,16 @@ from pathlib import Path
 from typing import Literal
 
 import click
-from bikestab_cli.options import ANGLE_VALUE, FILE, NAME, SPEED_VALUE, TRAIL_VALUE, at_option
+from bikestab_cli.options import (
+    ANGLE_VALUE,
+    FILE,
+    LENGTH_VALUE,
+    NAME,
+    SPEED_VALUE,
+    TRAIL_VALUE,
+    at_option,
+    told_as_options,
+)
 from bikestab_cli.output import tell_file
 
 
@@ -14,6 +23,8 @@ from bikestab_cli.output import tell_file
 @click.argument("volume", type=NAME)
 @click.option("--lam", type=ANGLE_VALUE, help="Fix the tilt: the picture is over trail and speed.")
 @click.option("--sigma", type=TRAIL_VALUE, help="Fix the trail: the picture is over tilt and speed.")
+@click.option("--head-angle", type=ANGLE_VALUE, help="Fix the tilt by the head angle.")
+@click.option("--trail", type=LENGTH_VALUE, help="Fix the trail by its length.")
 @click.option("--V", "V", type=SPEED_VALUE, help="Fix the speed: the picture is over tilt and trail.")
 @at_option
 @click.option(
@@ -29,7 +40,8 @@ from bikestab_cli.output import tell_file
     help="PNG, PDF or SVG; default slice_AXIS_VALUE.png beside the volume.",
 )
 def command(
-    volume: str, lam: float | None, sigma: float | None, V: float | None, machine: dict[str, float],
+    volume: str, lam: float | None, sigma: float | None, V: float | None,
+    head_angle: float | None, trail: float | None, machine: dict[str, float],
     probability: bool, output: str | None,
 ) -> None:  # fmt: skip
     """Draw any plane of a volume.
@@ -41,19 +53,28 @@ def command(
     \b
     Examples:
       bikestab slice out/quick --lam 0.2
+      bikestab slice out/quick --head-angle 78deg -o steep.png
       bikestab slice out/quick/volume.h5 --V 18km/h -o speed.png
     """
+    from bikestab.geometry import design_given
     from bikestab.plot.files import save, slice_name
     from bikestab.plot.slices import draw_slice, on_grid
     from bikestab.volume import Volume
 
-    given = {name: value for name, value in (("lam", lam), ("sigma", sigma), ("V", V)) if value is not None}
+    axes = {"lam": lam, "sigma": sigma, "V": V, "head_angle": head_angle, "trail": trail}
+    given = {name: value for name, value in axes.items() if value is not None}
     if len(given) != 1:
         raise click.UsageError(
-            "give one of --lam, --sigma and --V, for example --lam 0.2", click.get_current_context()
+            "give one of --lam, --sigma and --V, for example --lam 0.2; or --head-angle or --trail",
+            click.get_current_context(),
         )
     ((fixed, value),) = given.items()
     with Volume(volume) as opened:
+        if fixed in ("head_angle", "trail"):
+            bicycle = opened.at(machine).bicycle
+            with told_as_options():
+                design = design_given({fixed: value}, bicycle.c, bicycle.R2)
+            fixed, value = ("lam", float(design[0])) if fixed == "head_angle" else ("sigma", float(design[1]))
         field: Literal["growth_rate", "probability"] = "probability" if probability else "growth_rate"
         if probability and (near := on_grid(opened, fixed, value)) != value:  # type: ignore[arg-type]
             click.echo(f"note: the nearest plane of the grid is drawn, {fixed} = {near:.6g}", err=True)

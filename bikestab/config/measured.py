@@ -1,0 +1,116 @@
+"""Head angle, trail and fork offset in a config → λ and σ, before anything else is read of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from bikestab.bicycle import Bicycle
+from bikestab.config.values import json_schema, mistake
+from bikestab.errors import InputError
+from bikestab.geometry import GIVEN, design_given
+from bikestab.notation import MEASURED
+from bikestab.units import quantity
+
+_Key = tuple[str | int, ...]
+_ONE = "allowed: one of head_angle, trail, lam, sigma and V"
+_AXES = {"head_angle": "lam", "trail": "sigma"}
+
+
+def in_lam_and_sigma(given: Any) -> Any:
+    """A config's values with ``lam`` and ``sigma`` in place of MEASURED, in grid, slices and expectations.
+
+    Raises the mistake of two that contradict each other, and of a trail where the wheelbase varies.
+    """
+    if not isinstance(given, Mapping) or not isinstance(bicycle := given.get("bicycle"), Bicycle):
+        return given
+    config = dict(given)
+    if isinstance(grid := config.get("grid"), Mapping) and MEASURED.keys() & grid:
+        config["grid"] = _grid(grid, bicycle, config.get("sweep"))
+    for name in ("slices", "expect"):
+        if isinstance(entries := config.get(name), list):
+            config[name] = [_entry(entry, bicycle, (name, i)) for i, entry in enumerate(entries)]
+    return config
+
+
+def also_measured(schema: dict[str, Any]) -> None:
+    """Add to the JSON Schema of a slice or an expectation what may stand in place of lam and sigma."""
+    for name, meaning in MEASURED.items():
+        schema["properties"][name] = {"description": meaning, **json_schema(GIVEN[name])}
+
+
+def also_measured_axes(schema: dict[str, Any]) -> None:
+    """The same to that of the grid."""
+    schema["allOf"] = []
+    for name, other in _AXES.items():
+        number = json_schema(GIVEN[name])
+        ends = {"start": number, "stop": number, "num": {"type": "integer", "minimum": 2}}
+        spaced = {"type": "object", "properties": ends, "required": [*ends]}
+        chosen = {"values": {"type": "array", "items": number, "minItems": 2}}
+        listed = {"type": "object", "properties": chosen, "required": ["values"]}
+        kinds = [each | {"additionalProperties": False} for each in (spaced, listed)]
+        schema["properties"][name] = {"description": MEASURED[name], "oneOf": kinds}
+        schema["required"].remove(other)
+        schema["allOf"].append({"oneOf": [{"required": [other]}, {"required": [name]}]})
+
+
+def _grid(grid: Mapping[str, Any], bicycle: Bicycle, sweep: Any) -> dict[str, Any]:
+    if "offset" in grid:
+        raise mistake("the grid has tilt and trail", "give head_angle and trail", ("grid", "offset"))
+    axes = {name: axis for name, axis in grid.items() if name not in MEASURED}
+    for name, other in _AXES.items():
+        if name not in grid:
+            continue
+        if other in grid:
+            raise mistake(f"{other} is given as well", "give one of them", ("grid", name))
+        wheelbase = "w" if bicycle.bodies else "c"
+        if name == "trail" and isinstance(sweep, Mapping) and wheelbase in sweep:
+            raise mistake(f"the sweep has the wheelbase, {wheelbase}", "give grid.sigma", ("grid", name))
+        axes[other] = _axis(grid[name], name, bicycle)
+    return axes
+
+
+def _axis(axis: Any, name: str, bicycle: Bicycle) -> Any:
+    """Values of an axis in lam or sigma, ascending; what is no axis as it is."""
+
+    def converted(value: Any, key: _Key) -> float:
+        try:
+            design = design_given({name: quantity(value, GIVEN[name])}, bicycle.c, bicycle.R2)
+        except InputError as error:
+            raise mistake(error.problem, error.hint, ("grid", name, *key)) from None
+        return float(design[name == "trail"])
+
+    if not isinstance(axis, Mapping):
+        return axis
+    turned = name == "head_angle"  # the steepest is the least tilted
+    found = dict(axis)
+    ends = {end: converted(axis[end], (end,)) for end in ("start", "stop") if end in axis}
+    if ends:
+        found |= {{"start": "stop", "stop": "start"}[end] if turned else end: x for end, x in ends.items()}
+    if isinstance(values := axis.get("values"), list):
+        numbers = [converted(value, ("values", i)) for i, value in enumerate(values)]
+        found["values"] = numbers[::-1] if turned else numbers
+    return found
+
+
+def _entry(entry: Any, bicycle: Bicycle, key: _Key) -> Any:
+    """A slice or an expectation with lam and sigma, which its MEASURED and these give."""
+    if not isinstance(entry, Mapping) or not MEASURED.keys() & entry:
+        return entry
+    typed = {name: value for name, value in entry.items() if name in GIVEN and value is not None}
+    if key[0] == "slices" and len(entry) != 1:
+        raise mistake("a slice fixes one axis", _ONE, key)
+    if key[0] == "slices" and "offset" in entry:
+        raise mistake(
+            "a slice fixes one axis", "allowed: head_angle, trail, lam, sigma or V", (*key, "offset")
+        )
+    numbers = {}
+    try:
+        for name, value in typed.items():
+            numbers[name] = quantity(value, GIVEN[name], key=(name,))
+        own = (None, None) if key[0] == "slices" else (bicycle.lam, bicycle.sigma)
+        lam, sigma = design_given(numbers, bicycle.c, bicycle.R2, own)
+    except InputError as error:
+        raise mistake(error.problem, error.hint, (*key, *error.key)) from None
+    rest = {name: value for name, value in entry.items() if name not in GIVEN}
+    return rest | {name: float(x) for name, x in (("lam", lam), ("sigma", sigma)) if x is not None}
