@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
 from bikestab.limits import check_product, check_tilt, check_trail, check_value, require
-from bikestab.notation import MEASURED, MEIJAARD, OPTIONAL, two_parts
+from bikestab.notation import MEASURED, MEIJAARD, OPTIONAL, superseded, two_parts
 from bikestab.plausible import warnings_of
 from bikestab.presets import preset_names, preset_text
 from bikestab.rider import RIDER, flattened, left_behind
@@ -125,7 +125,8 @@ class Bicycle:
 
     def replaced(self, values: Mapping[str, float]) -> Bicycle:
         """A copy with other values of some parameters in its notation; InputError names the parameter."""
-        kept = {k: v for k, v in self.given.items() if not (k in ("R1", "R2") and "R" in values)}
+        gone = superseded(values, "c" if self.bodies else "sigma")
+        kept = {k: v for k, v in self.given.items() if k not in gone}
         bicycle = Bicycle.from_mapping({**kept, **values, "source": self.source}, name=self.name)
         deviations = {k: sd for k, sd in self.deviations.items() if k not in values}
         correlations = {pair: r for pair, r in self.correlations.items() if not {*pair} & {*values}}

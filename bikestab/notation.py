@@ -58,6 +58,19 @@ PARTS = (("rear", ("mR", "mB", "rider.m")), ("front", ("mH", "mF")))
 INERTIAS = ("IB", "IH", "rider.I")  # of bodies that have a product of inertia
 
 
+def superseded(values: Mapping[str, float], trail: str) -> set[str]:
+    """The parameters in place of which others are among ``values``; ``trail`` is the key of the trail.
+
+    An offset alone leaves the tilt; with a trail it fixes that.
+    """
+    gone = {"R1", "R2"} if "R" in values else set()
+    if "head_angle" in values or ("offset" in values and not {"trail", trail}.isdisjoint(values)):
+        gone.add("lam")
+    if "trail" in values or "offset" in values:
+        gone.add(trail)
+    return gone - {*values}
+
+
 def two_parts(n: Mapping[str, float]) -> dict[str, Any]:
     """The paper's parameters of the two parts, as Bicycle takes them, from the 25 of four rigid bodies.
 

@@ -131,3 +131,24 @@ def test_a_skate_has_no_tilt_of_trail_and_offset():
 def test_trail_and_sigma_that_differ():
     with pytest.raises(InputError, match=r"trail and sigma are both given, and differ: 0.06 m and 0.05 m"):
         design_given({"trail": 0.06, "sigma": 0.05}, 1.0, 0.3)
+
+
+@pytest.mark.parametrize("bicycle", [BENCHMARK, Bicycle.preset("sharp1971")], ids=["bodies", "parts"])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"head_angle": 1.25}, {"trail": 0.06}, {"offset": 0.05}, {"head_angle": 1.25, "offset": 0.05},
+        {"trail": 0.06, "offset": 0.05}, {"lam": 0.32, "offset": 0.05}, {"head_angle": 1.25, "trail": 0.06},
+    ],
+)  # fmt: skip
+def test_values_that_replace_the_own_ones(bicycle, values):
+    """What is not given stays: the tilt with an offset alone, else the trail along the ground."""
+    found = bicycle.replaced(values)
+    trail = found.sigma * found.c
+    seen = {"lam": found.lam, "head_angle": math.pi / 2 - found.lam, "trail": trail}
+    seen["offset"] = offset_of(found.lam, found.sigma, found.c, found.R2)
+    assert {name: seen[name] for name in values} == pytest.approx(values, abs=1e-12)
+    if values.keys() <= {"trail", "offset"} and len(values) == 1:
+        assert found.lam == bicycle.lam
+    if values.keys() == {"head_angle"}:
+        assert trail == pytest.approx(bicycle.sigma * bicycle.c, rel=1e-14)

@@ -159,9 +159,10 @@ def _deviations(
 
 def units_of(parameter: str) -> Units:
     from bikestab.bicycle import PAPER
-    from bikestab.notation import MEIJAARD
+    from bikestab.notation import MEASURED, MEIJAARD
+    from bikestab.rider import RIDER
 
-    return units_in({**PAPER, **MEIJAARD}.get(parameter, ""))
+    return units_in({**PAPER, **MEIJAARD, **RIDER, **MEASURED}.get(parameter, ""))
 
 
 at_option = click.option(
