@@ -19,7 +19,7 @@ from bikestab.notation import MEASURED, MEIJAARD, OPTIONAL, superseded, two_part
 from bikestab.plausible import warnings_of
 from bikestab.presets import preset_names, preset_text
 from bikestab.rider import RIDER, flattened, left_behind
-from bikestab.texts import is_file
+from bikestab.texts import is_there
 from bikestab.units import quantity, shown, units_in
 
 
@@ -215,7 +215,7 @@ class Bicycle:
         """A preset by its name, or else the bicycle in a file; its path starts from ``folder``."""
         looks_like_path = "/" in name_or_path or "." in name_or_path
         path = Path(folder, name_or_path)
-        if name_or_path not in preset_names() and (looks_like_path or is_file(path)):
+        if name_or_path not in preset_names() and (looks_like_path or is_there(path)):
             return cls.from_file(path)
         return cls.preset(name_or_path)
 

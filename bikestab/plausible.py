@@ -64,7 +64,9 @@ def _other_units(given: Mapping[str, float], notation: Mapping[str, str]) -> tup
         if unit.get(k) == "kg]" and v > (HEAVIEST_FRONT if k in _FRONT else HEAVIEST)
     }
     short, words = "mm", "millimetres"
-    if max(map(abs, lengths.values()), default=0) < _MILLIMETRES:
+    trail, wheelbase = ("c", "w") if "w" in given else ("trail", "c")
+    alone = trail in lengths and wheelbase not in lengths  # no trail is a few decimetres
+    if max(map(abs, lengths.values()), default=0) < _MILLIMETRES and not alone:
         short, words = "cm", "centimetres"
     found = ((lengths, "m", short, words), (masses, "kg", "g", "grams"))
     return tuple(

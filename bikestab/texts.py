@@ -49,6 +49,13 @@ def is_file(path: str | Path) -> bool:
     return False
 
 
+def is_there(path: str | Path) -> bool:
+    """Whether anything is there, a folder too; also False for what no file can be named."""
+    with suppress(OSError, ValueError):
+        return Path(path).exists()
+    return False
+
+
 def _read(path: str | Path) -> bytes:
     """At most one byte more than ``MOST_BYTES``. Raises OSError, also where a pipe takes too long."""
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))

@@ -38,6 +38,8 @@ def test_other_units_are_one_warning(bicycle, unit, factor, words):
 def test_one_number_in_another_unit():
     (text,) = BENCHMARK.replaced({"zB": -900}).warnings
     assert text == "zB = -900 m: no bicycle has that; millimetres are written -900mm"
+    (text,) = BENCHMARK.replaced({"c": 55}).warnings
+    assert text == "c = 55 m: no bicycle has that; millimetres are written 55mm"
     (text,) = BENCHMARK.replaced({"mF": 3000}).warnings
     assert text == "mF = 3000 kg: no bicycle has that; grams are written 3000g"
 

@@ -29,8 +29,9 @@ def written(
             return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
         return "".join(f"{key}: {flow(value)}\n" for key, value in data.items())
     if ending not in ENDINGS:
-        hint = f"{nearest(ending, ENDINGS)}" if ending else f"known: {', '.join(ENDINGS)}"
-        raise InputError(f"{ending or 'no ending'} is no format that can be written", hint=hint)
+        if not ending:
+            raise InputError("has no ending that tells the format", hint=f"allowed: {', '.join(ENDINGS)}")
+        raise InputError(f"{ending} is no format that can be written", hint=nearest(ending, ENDINGS))
     lines = [f"# {key}: {' '.join(text.split())}" for key, text in texts.items()]
     lines += ["[bicycle]"] if ending == ".ini" else []
     for key, number in numbers.items():

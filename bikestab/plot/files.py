@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -23,7 +24,10 @@ def save(figure: Figure, path: Path) -> None:
     known = sorted(set(figure.canvas.get_supported_filetypes()) - {"pgf"})  # which takes a LaTeX
     ending = path.suffix[1:].lower()
     if ending not in known:
-        raise InputError(f"Format {ending!r} is not supported", place=str(path), hint=nearest(ending, known))
+        problem = f"Format {ending!r} is not supported" if ending else "has no ending of a picture"
+        meant = nearest(ending, known)
+        hint = meant if meant.startswith("did") else "allowed: .png, .pdf or .svg"
+        raise InputError(problem, place=str(path), hint=hint)
     picture = io.BytesIO()  # as some formats end in errors of their own where a disk is full
     figure.savefig(picture, format=ending, dpi=160)
     with written(path) as part:
@@ -31,9 +35,12 @@ def save(figure: Figure, path: Path) -> None:
 
 
 def slice_name(planes: Mapping[str, float], field: str = "growth_rate") -> str:
-    """The file name of a slice's picture: its plane, and the machine of a sweep; no two have one name."""
+    """The file name of a slice's picture: its plane, and the machine of a sweep.
+
+    No two have one name that differ by more than rounding, as 0.39749999999999996 and 0.3975 do.
+    """
     words = ["slice" if field == "growth_rate" else field]
     for name, value in planes.items():
         short = f"{value:.6g}"
-        words += [name, short if float(short) == value else repr(float(value))]
+        words += [name, short if math.isclose(float(short), value, rel_tol=1e-14) else repr(float(value))]
     return "_".join(words) + ".png"

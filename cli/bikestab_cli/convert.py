@@ -55,6 +55,10 @@ def command(bicycle_name: str, output: str | None, rider: str | None, notation: 
             deviations = {}
     warn(bicycle)
     ending = Path(output).suffix.lower() if output else ".yaml"
+    if not ending:
+        is_folder = Path(str(output)).is_dir()
+        hint = "give the format with an ending, e.g. -o out.yaml; without -o it goes to stdout"
+        raise InputError("is a folder" if is_folder else "has no ending", place=str(output), hint=hint)
     try:
         text = text_of(ending, numbers, deviations, {"name": bicycle.name, "source": bicycle.source})
     except InputError as error:

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from bikestab_cli.parameters import deviations_given, values_given
 
 from bikestab.errors import InputError
 from bikestab.files import check_writable
-from bikestab.units import ANGLE, DAMPING, LENGTH, PURE, SPEED, Units, quantity, units_in
+from bikestab.units import ANGLE, DAMPING, LENGTH, PURE, SPEED, Units, quantity
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -131,47 +132,13 @@ def equation_options(function: F) -> F:
     return function
 
 
-def _machine(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> dict[str, float]:
-    values: dict[str, float] = {}
-    for text in texts:
-        name, equals, number = text.partition("=")
-        if not equals:
-            raise click.BadParameter(f"{text!r} is not NAME=VALUE, e.g. delta=1", param=option)
-        try:
-            values[name.strip()] = quantity(number, units_of(name.strip()))
-        except InputError as error:
-            raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
-    return values
-
-
-def _deviations(
-    context: click.Context, option: click.Parameter, texts: tuple[str, ...]
-) -> tuple[bool, dict[str, float]]:
-    """Whether those of the bicycle's file are asked for, and others by their parameters' names."""
-    given = _machine(context, option, tuple(text for text in texts if text != "file"))
-    for name, value in given.items():
-        if value <= 0:
-            raise click.BadParameter(
-                f"{name}={value:g} is no standard deviation; allowed: above 0", param=option
-            )
-    return "file" in texts, given
-
-
-def units_of(parameter: str) -> Units:
-    from bikestab.bicycle import PAPER
-    from bikestab.notation import MEASURED, MEIJAARD
-    from bikestab.rider import RIDER
-
-    return units_in({**PAPER, **MEIJAARD, **RIDER, **MEASURED}.get(parameter, ""))
-
-
 at_option = click.option(
-    "--at", "machine", multiple=True, metavar="NAME=VALUE", callback=_machine,
+    "--at", "machine", multiple=True, metavar="NAME=VALUE", callback=values_given,
     help="Which machine of a sweep, e.g. --at delta=1; once for each of its axes.",
 )  # fmt: skip
 
 sd_option = click.option(
-    "--sd", "deviations", multiple=True, metavar="NAME=VALUE|file", callback=_deviations,
+    "--sd", "deviations", multiple=True, metavar="NAME=VALUE|file", callback=deviations_given,
     help="A parameter's standard deviation, e.g. --sd mB=1.5 --sd lam=0.5deg; file: all that the file gives.",
 )  # fmt: skip
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 from bikestab_cli.options import DEFAULT_BICYCLE, NAME, equation_options, load_bicycle, warn
+from bikestab_cli.parameters import parameter
 
 from bikestab.errors import InputError
-from bikestab.units import quantity
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -33,8 +33,6 @@ class Chosen(NamedTuple):
 
 
 def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> Values:
-    from bikestab_cli.options import units_of
-
     values: Values = {}
     for text in texts:
         name, equals, numbers = text.partition("=")
@@ -44,7 +42,7 @@ def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -
         if name in values:
             raise click.BadParameter(f"{name} is set twice", param=option)
         try:
-            values[name] = [quantity(number, units_of(name)) for number in numbers.split(",")]
+            values[name] = [parameter(name, number) for number in numbers.split(",")]
         except InputError as error:
             raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
     return values

@@ -29,6 +29,9 @@ def test_convert(bikestab):
     [
         (["none.txt"], "none.txt: there is no such file"),
         (["meijaard2007", "-o", "a.xls"], "a.xls: .xls is no format that can be written"),
+        (["meijaard2007", "-o", "a"], "a: has no ending\n  give the format with an ending, e.g. -o out.yaml"),
+        (["meijaard2007", "-o", "/dev/stdout"], "without -o it goes to stdout"),
+        (["meijaard2007", "-o", "."], "is a folder"),
         (["meijaard2007", "-o", "there.yaml"], "there.yaml: exists already"),
         (["meijaard2007", "-o", "no/a.yaml"], "no/a.yaml: cannot be written"),
     ],

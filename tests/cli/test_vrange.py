@@ -7,6 +7,7 @@ import subprocess
 import sys
 from fractions import Fraction
 from functools import partial
+from pathlib import Path
 
 import pytest
 from bikestab_cli.main import main
@@ -379,3 +380,33 @@ def test_values_that_cannot_be_set(without_warnings, text, words):
     assert (code, out) == (2, "")
     assert "--set" in err
     assert words in err
+
+
+# --- parameters by name
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (("--sd", "cc=10mm"), "there is no parameter 'cc'; did you mean 'c'?"),
+        (("--set", "riderx=2cm,3cm"), "there is no parameter 'riderx'; did you mean 'rider.x'?"),
+        (("--sd", "mB=10mm"), "it is a length, not a mass"),
+        (("--bicycle", "folder"), "folder: is a folder, not a file"),
+    ],
+)
+def test_names_of_parameters_and_files(bikestab, args, message):
+    Path("folder").mkdir()
+    code, out, err = bikestab("vrange", *args)
+    assert (code, out) == (2, "")
+    assert message in err
+
+
+def test_units_of_a_rider(bikestab):
+    rider = "rider: {m: 75, x: 0.35, z: -1.1, Ixx: 9.6, Izz: 2.2, Ixz: -1.0}\n"
+    Path("ridden.yaml").write_text(preset_text("meijaard2007") + rider, "utf-8")
+    with_unit, plain = (
+        bikestab("vrange", "--bicycle", "ridden.yaml", "--set", f"rider.x={text}", "--json")
+        for text in ("30cm", "0.3")
+    )
+    assert with_unit == plain
+    assert with_unit[0] == 0

@@ -19,6 +19,8 @@ def test_formats(tmp_path, name, start):
 def test_an_unknown_format(tmp_path):
     with pytest.raises(InputError, match=r"a\.pgn: Format 'pgn' is not supported\ndid you mean 'png'"):
         save(Figure(), tmp_path / "a.pgn")
+    with pytest.raises(InputError, match=r"/a: has no ending of a picture\nallowed: \.png, \.pdf or \.svg"):
+        save(Figure(), tmp_path / "a")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -31,6 +33,7 @@ def test_names_of_files():
     assert slice_name({"lam": 0.2}) == "slice_lam_0.2.png"
     assert slice_name({"V": 5.0}) == "slice_V_5.png"
     assert slice_name({"sigma": 0.0784313725}) == "slice_sigma_0.0784313725.png"
+    assert slice_name({"lam": 0.39749999999999996}, "probability") == "probability_lam_0.3975.png"
     assert slice_name({"lam": np.float64(0.2)}) == "slice_lam_0.2.png"
 
 
