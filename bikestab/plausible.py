@@ -54,6 +54,23 @@ def design_doubts(lam: float | None, sigma: float | None, wheelbase: float) -> l
     return doubts
 
 
+def deviation_doubts(bicycle: Bicycle, deviations: Mapping[str, float]) -> list[str]:
+    """The likely mistake in standard deviations [m, kg] that are larger than the length or mass itself."""
+    doubts = []
+    for name, deviation in deviations.items():
+        unit = bicycle.notation.get(name, "").rpartition("[")[2].rstrip("]")
+        value = bicycle.given.get(name)
+        if unit not in ("m", "kg") or not value or deviation <= abs(value):
+            continue
+        text = f"the standard deviation {name} = {deviation:g} {unit} is larger than "
+        text += f"{name} = {value:g} {unit} itself"
+        if deviation >= 1:
+            written = f"millimetres are written {deviation:g}mm"
+            text += f": {written if unit == 'm' else f'grams are written {deviation:g}g'}"
+        doubts.append(text)
+    return doubts
+
+
 def _other_units(given: Mapping[str, float], notation: Mapping[str, str]) -> tuple[str, ...]:
     """The likely mistakes of lengths not in metres and masses not in kilograms."""
     unit = {key: meaning.rpartition("[")[2] for key, meaning in notation.items()}

@@ -12,6 +12,7 @@ from bikestab.config.meaning import OUT_OF_EQUATIONS
 from bikestab.errors import InputError
 from bikestab.presets import preset_names
 
+NOT_DRAWN = "# not drawn, as the grid has their values: "
 _NO_ENSEMBLE = """\
 # ensemble:                     # machines drawn at random: how probable stability is at each point
 #   delta: {uniform: [0, 2]}    # or {normal: [mean, standard deviation]}; any parameters
@@ -72,5 +73,5 @@ def _ensemble(bicycle: Bicycle) -> str:
     lines += [f"  {name}: {{normal: [{bicycle.given[name]!r}, {sd!r}]}}" for name, sd in deviations.items()]
     lines += ["  samples: 1000", "  seed: 1"]
     if on_grid:
-        lines.append(f"# not drawn, as the grid has their values: {', '.join(on_grid)}")
+        lines.append(f"{NOT_DRAWN}{', '.join(on_grid)}")
     return "\n".join(lines)

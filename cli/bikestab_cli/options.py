@@ -166,13 +166,17 @@ def load_bicycle(name: str, delta: float | None) -> Bicycle:
 
 def warn(bicycle: Bicycle) -> None:
     """Tell on stderr, once, what was left out of a file, and what no rigid body can have."""
-    told: set[str] = click.get_current_context().find_root().meta.setdefault("bikestab.told", set())
     for kind, texts in (("note", bicycle.notes), ("warning", bicycle.warnings)):
         for text in texts:
-            line = f"{kind}: {bicycle.name}: {text}"
-            if line not in told:
-                click.echo(line, err=True)
-            told.add(line)
+            tell_once(f"{kind}: {bicycle.name}: {text}")
+
+
+def tell_once(line: str) -> None:
+    """Print the line on stderr, unless this command did so before."""
+    told: set[str] = click.get_current_context().find_root().meta.setdefault("bikestab.told", set())
+    if line not in told:
+        click.echo(line, err=True)
+    told.add(line)
 
 
 def check_files(*names: str | None) -> None:

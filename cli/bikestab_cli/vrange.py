@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_designs, is_single
-from bikestab_cli.options import json_option, sd_option, told_as_options
+from bikestab_cli.options import json_option, sd_option, tell_once, told_as_options
 from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, print_json, table
 from bikestab_cli.several import Chosen, Values, machines_chosen, several_machines
 
@@ -156,10 +156,16 @@ def _spreads(
 ) -> list[Spread]:
     """How far each design's stable speeds are known; none where no standard deviation is asked for."""
     if not (of_file or given):
+        if any(sd > 0 for sd in bicycle.deviations.values()):
+            text = "the file has standard deviations: --sd file tells what they leave of the digits"
+            tell_once(f"note: {bicycle.name}: {text}")
         return []
     from bikestab.design.sensitivity import sensitivity
     from bikestab.design.spread import own_spread
+    from bikestab.plausible import deviation_doubts
 
+    for text in deviation_doubts(bicycle, given):
+        tell_once(f"warning: {text}")
     if len(answers) > MOST_SPREADS:
         problem = f"--sd draws machines for each design, and {len(answers)} are too many"
         raise click.UsageError(f"{problem}; allowed: {MOST_SPREADS}", click.get_current_context())

@@ -39,7 +39,8 @@ def test_init_with_uncertainties(bikestab):
         for name, value in Bicycle.preset("meijaard2007").given.items()
     ]
     Path("measured.txt").write_text("".join(lines))
-    assert bikestab("init", "mine.yaml", "--bicycle", "measured.txt", "--uncertain")[0] == 0
+    code, _, err = bikestab("init", "mine.yaml", "--bicycle", "measured.txt", "--uncertain")
+    assert (code, err) == (0, "note: not drawn, as the grid has their values: lam, c\n")
     config = load_config("mine.yaml")
     drawn = {name: one.normal for name, one in config.ensemble.parameters.items()}
     fixed = {"lam", "c", "IByy", "IHyy"}  # the grid's, and what is in no equation

@@ -410,3 +410,21 @@ def test_units_of_a_rider(bikestab):
     )
     assert with_unit == plain
     assert with_unit[0] == 0
+
+
+def test_a_file_with_deviations_is_noted_once(bikestab):
+    text = preset_text("meijaard2007").replace("mB: 85 ", "mB: 85 +/- 1 ")
+    Path("measured.yaml").write_text(text, "utf-8")
+    note = "note: meijaard2007: the file has standard deviations: "
+    note += "--sd file tells what they leave of the digits\n"
+    plain = ("vrange", "--bicycle", "measured.yaml", "--set", "mH=3,4")
+    assert bikestab(*plain)[::2] == (0, note)
+    assert bikestab("vrange", "--bicycle", "measured.yaml", "--sd", "file")[::2] == (0, "")
+
+
+def test_a_deviation_larger_than_the_value(bikestab):
+    of_trail = "warning: the standard deviation c = 10 m is larger than c = 0.08 m itself: "
+    of_trail += "millimetres are written 10mm\n"
+    assert bikestab("vrange", "--bicycle", "meijaard2007", "--sd", "c=10")[::2] == (0, of_trail)
+    assert bikestab("vrange", "--bicycle", "meijaard2007", "--sd", "c=10mm")[::2] == (0, "")
+    assert "grams are written 90g" in bikestab("vrange", "--bicycle", "meijaard2007", "--sd", "mB=90")[2]
