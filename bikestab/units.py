@@ -25,7 +25,7 @@ _DIMENSIONS: dict[str, Units] = {
     "an angle": ANGLE, "a length": LENGTH, "a speed": SPEED, "a mass": MASS, "a moment of inertia": INERTIA,
     "a damping": DAMPING, "an acceleration": ACCELERATION, "a plain number": PURE,
 }  # fmt: skip
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
 _COMMA = re.compile(r"[-+]?\d+,\d+\s*[^\d\s,]*", re.ASCII)
 _MOST_SHOWN = 6
 

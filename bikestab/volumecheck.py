@@ -25,6 +25,7 @@ from bikestab.layout import BOUNDS, MOST_INTERVALS, TEXTS, expected, machine_nam
 from bikestab.limits import MOST, check_speed, check_tilt, check_trail
 from bikestab.model import Floats
 from bikestab.notation import MEIJAARD
+from bikestab.rider import RIDER
 
 
 def check_volume(path: Path) -> None:
@@ -52,7 +53,7 @@ def _sweep(file: h5py.File) -> dict[str, Floats]:
     """The values of the sweep's axes by their names."""
     with reading("machine"):
         names = sweep_names(file)
-    known = {**PAPER, **MEIJAARD}
+    known = {**PAPER, **MEIJAARD, **RIDER}
     for name in names:
         if name not in known:
             raise InputError(f"has an axis {name[:40]!r}, which is no parameter", key=("machine",))

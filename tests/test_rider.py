@@ -117,6 +117,14 @@ def test_a_sweep(sweep):
     assert typed.sha256 == config.sha256
 
 
+def test_a_volume_of_a_sweep_is_a_whole_one(tmp_path):
+    text = f"{IN_PLACE}sweep: {{rider.m: [60, 80]}}\nfields: [stable]\noutput: {tmp_path}\n"
+    path = bs.scan(parse_config(parse(text, "scan.yaml"))).path
+    with bs.open_volume(path) as volume:
+        assert list(volume.swept["rider.m"]) == [60, 80]
+        assert volume.at({"rider.m": 80}).bicycle.m1 == pytest.approx(92.97)
+
+
 def test_speeds_of_a_rider_who_leans_forward():
     """A number for the whole way, from eigenvalues of the peer's joined machine."""
     found = bs.stable_intervals(with_rider())

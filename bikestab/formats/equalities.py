@@ -10,14 +10,16 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 from bikestab.errors import InputError
 from bikestab.units import shown
 
-_LINE = re.compile(r"\s*(?P<key>[A-Za-z_][\w.]*)\s*=\s*(?P<value>[^#]*?)\s*(?:#.*)?")
+_KEY = re.compile(r"[A-Za-z_][\w.]*")
 _PLUS_MINUS = re.compile(r"\+/-|\+-|±")
-_PRODUCT = re.compile(r"(?P<sign>[-+]?)\s*(?P<first>[^*/]+)(?P<rest>(?:\s*[*/]\s*[^*/]+)*)")
+_FLOAT = re.compile(r"[-+]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?|nan|inf)", re.ASCII | re.IGNORECASE)
+_WHOLE = re.compile(r"[-+]?\d+", re.ASCII)
 _EXAMPLE = "a line is 'key = value', or 'key = value +/- standard deviation'"
 
 
@@ -56,8 +58,14 @@ def looks_like(text: str) -> bool:
     """Whether the first line that says something is such an entry."""
     for line in text.splitlines():
         if line.strip() and not line.lstrip().startswith(("#", "[", ";")):
-            return bool(_LINE.fullmatch(line))
+            return _entry(line) is not None
     return False
+
+
+def _entry(line: str) -> tuple[str, str] | None:
+    """Key and value of a line; None where it is no such entry."""
+    key, sign, value = (part.strip() for part in line.partition("#")[0].partition("="))
+    return (key, value) if sign and _KEY.fullmatch(key) else None
 
 
 def parse(text: str, file: str) -> Equalities:
@@ -68,15 +76,15 @@ def parse(text: str, file: str) -> Equalities:
         if not stripped or stripped[0] in "#;" or re.fullmatch(r"\[\w+\]", stripped):
             continue
         place = f"{file}, line {number}"
-        match = _LINE.fullmatch(line)
-        if not match:
+        entry = _entry(line)
+        if not entry:
             raise InputError(f"{shown(stripped)} has no '='", place=place, hint=_EXAMPLE)
-        key = match["key"]
+        key, value = entry
         if key in entries:
             problem = f"given twice, first in line {entries[key].line}"
             raise InputError(problem, key=(key,), place=place, hint="keep one of them")
         try:
-            entries[key] = Measured(*mean(match["value"], key), number)
+            entries[key] = Measured(*mean(value, key), number)
         except InputError as error:
             raise error.at(place) from None
     return Equalities(file, entries)
@@ -84,7 +92,13 @@ def parse(text: str, file: str) -> Equalities:
 
 def mean(text: str, key: str) -> tuple[float | str, float]:
     """The mean of values behind commas, and its standard deviation; InputError, with the key, for none."""
-    pairs = [_measured(part, key) for part in text.split(",")]
+    parts = text.split(",")
+    for before, after in pairwise(parts):
+        if _one_number(before, after):
+            problem = f"{shown(text.strip())} has a decimal comma, or several values without a blank between"
+            hint = f"write {before.strip()}.{after.strip()}, or for the mean of two {before.strip()}, {after}"
+            raise InputError(problem, key=(key,), hint=hint)
+    pairs = [_measured(part, key) for part in parts]
     if len(pairs) == 1:
         return pairs[0]
     numbers = []
@@ -94,6 +108,17 @@ def mean(text: str, key: str) -> tuple[float | str, float]:
         numbers.append(value)
     deviation = math.sqrt(math.fsum(sd * sd for _, sd in pairs)) / len(pairs)
     return math.fsum(numbers) / len(numbers), deviation
+
+
+def _one_number(before: str, after: str) -> bool:
+    """Whether a comma between these is a decimal one: ``85,5``, ``85,5 +/- 0.5`` or ``85 +/- 0,5``."""
+    first, second = _PLUS_MINUS.split(before), _PLUS_MINUS.split(after)
+    digits = (
+        _WHOLE.fullmatch(first[-1].lstrip())
+        and second[0][:1].isdigit()
+        and _WHOLE.fullmatch(second[0].rstrip())
+    )
+    return bool(digits) and min(len(first), len(second)) == 1
 
 
 def _measured(text: str, key: str) -> tuple[float | str, float]:
@@ -114,14 +139,15 @@ def _measured(text: str, key: str) -> tuple[float | str, float]:
 
 def _number(text: str) -> float | None:
     """A number, or a product or quotient of numbers and pi; None for anything else."""
-    match = _PRODUCT.fullmatch(text.strip())
-    if not match:
-        return None
-    result = -1.0 if match["sign"] == "-" else 1.0
-    for operator, factor in re.findall(r"([*/])\s*([^*/]+)", "*" + match["first"] + match["rest"]):
-        try:
-            value = math.pi if factor.strip() == "pi" else float(factor)
-            result = result * value if operator == "*" else result / value
-        except (ValueError, ZeroDivisionError):
+    text = text.strip()
+    result = -1.0 if text.startswith("-") else 1.0
+    first, *rest = re.split("([*/])", text[1:] if text.startswith(("-", "+")) else text)
+    for operator, factor in zip(("*", *rest[::2]), (first, *rest[1::2]), strict=True):
+        factor = factor.strip()
+        if factor != "pi" and not _FLOAT.fullmatch(factor):
             return None
+        value = math.pi if factor == "pi" else float(factor)
+        if operator == "/" and value == 0:
+            return None
+        result = result * value if operator == "*" else result / value
     return result

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from bikestab.errors import InputError
 from bikestab.notation import MEIJAARD
-from bikestab.units import shown
+from bikestab.units import quantity, shown, units_in
 
 # What the equations do not know.
 UNUSED = {
@@ -47,8 +48,10 @@ def without_extras(values: Mapping[Any, Any]) -> tuple[dict[Any, Any], list[str]
 
     InputError, with the key, for an extra one that contradicts the parameters.
     """
-    kept, unused, agreeing = dict(values), [], []
-    numbers = {key: float(value) for key, value in values.items() if _is_number(value)}
+    kept, unused = dict(values), []
+    agreeing: list[str] = []
+    unchecked: list[str] = []
+    numbers = _in_si(values)
     for key in values:
         if key in MEIJAARD:
             continue
@@ -56,8 +59,8 @@ def without_extras(values: Mapping[Any, Any]) -> tuple[dict[Any, Any], list[str]
             unused.append(key)
             del kept[key]
         elif key in _MUST_BE:
-            _check(key, values[key], numbers)
-            agreeing.append(key)
+            checked = _check(key, values[key], numbers)
+            (agreeing if checked else unchecked).append(key)
             del kept[key]
     apart = [key for key in values if _of_part(key)]
     for key in apart:
@@ -67,13 +70,20 @@ def without_extras(values: Mapping[Any, Any]) -> tuple[dict[Any, Any], list[str]
         notes.append(f"not in the equations, left out: {', '.join(unused)}")
     if agreeing:
         notes.append(f"follow from the others, and agree: {', '.join(agreeing)}")
+    if unchecked:
+        notes.append(f"cannot be compared with the others, left out: {', '.join(unchecked)}")
     if apart:
         notes.append(f"parts of H, left out: {', '.join(apart)}")
     return kept, ["; ".join(notes)] if notes else []
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+def _in_si(values: Mapping[Any, Any]) -> dict[str, float]:
+    """The values that are numbers; others are told of where they are used."""
+    numbers = {}
+    for key, value in values.items():
+        with suppress(InputError):
+            numbers[key] = quantity(value, units_in(MEIJAARD.get(key, "")))
+    return numbers
 
 
 def _of_part(key: Any) -> bool:
@@ -82,7 +92,8 @@ def _of_part(key: Any) -> bool:
     return any(key == name.format(part) for part in _PARTS_OF_H for name in names)
 
 
-def _check(key: str, value: Any, numbers: Mapping[str, float]) -> None:
+def _check(key: str, value: Any, numbers: Mapping[str, float]) -> bool:
+    """Whether the others were there to compare it with; InputError where it is no number or differs."""
     words, formula = _MUST_BE[key]
     if key not in numbers:
         raise InputError(
@@ -90,13 +101,14 @@ def _check(key: str, value: Any, numbers: Mapping[str, float]) -> None:
         )
     try:
         wanted = formula(numbers)
-    except KeyError:  # of a parameter that is missing, which is told of elsewhere
-        return
+    except KeyError:
+        return False
     if not math.isclose(numbers[key], wanted, rel_tol=CLOSE, abs_tol=CLOSE):
         raise InputError(
             f"{numbers[key]:.9g} is not what the others say, {words} = {wanted:.9g}", key=(key,),
             hint="correct one of them, or leave this one out",
         )  # fmt: skip
+    return True
 
 
 def _across(n: Mapping[str, float], ahead: float, radius: float) -> float:

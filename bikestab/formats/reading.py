@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -89,22 +89,30 @@ def _from_parameter_set(data: Any, located: Located) -> Found:
 
 def _of_mapping(data: Mapping[Any, Any], located: Located) -> Found:
     """The values, of which text such as ``85 +/- 0.5`` has a standard deviation."""
-    values, notes = _settled(data, located)
-    flat, deviations = values, {}
-    if any(_uncertain(value) for value in (*values.values(), *_inner(values))):
-        try:
-            flat = flattened(values)
-            for key, value in flat.items():
-                if _uncertain(value):
-                    flat[key], deviations[key] = equalities.mean(value, key)
-        except InputError as error:
-            raise located(error) from None
-    return Found(flat, located, {key: sd for key, sd in deviations.items() if sd}, notes=tuple(notes))
+    try:
+        values, deviations = _measured(data)
+        if isinstance(rider := data.get("rider"), Mapping):
+            values["rider"], inner = _measured(rider, "rider.")
+            deviations |= inner
+    except InputError as error:
+        raise located(error) from None
+    values, notes = _settled(values, located)
+    if not deviations:
+        return Found(values, located, notes=tuple(notes))
+    try:
+        values = flattened(values)  # scale_inertia has the mass alone, which is without uncertainty by now
+    except InputError as error:
+        raise located(error) from None
+    return Found(values, located, {k: sd for k, sd in deviations.items() if k in values}, notes=tuple(notes))
 
 
-def _inner(values: Mapping[Any, Any]) -> Iterable[Any]:
-    rider = values.get("rider")
-    return rider.values() if isinstance(rider, Mapping) else ()
+def _measured(values: Mapping[Any, Any], prefix: str = "") -> tuple[dict[Any, Any], dict[str, float]]:
+    """The values, and the standard deviations that are not zero of those that are such text."""
+    found, deviations = dict(values), {}
+    for key, value in values.items():
+        if _uncertain(value) and key not in ("name", "source"):
+            found[key], deviations[f"{prefix}{key}"] = equalities.mean(value, f"{prefix}{key}")
+    return found, {key: sd for key, sd in deviations.items() if sd}
 
 
 def _uncertain(value: Any) -> bool:

@@ -1,6 +1,7 @@
 """Text of ``key = value +/- deviation``: what BicycleParameters' reader makes of it, and what it cannot."""
 
 import math
+import time
 
 import pytest
 from bicycleparameters.io import load_parameter_text_file
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from bikestab.errors import InputError
 from bikestab.formats.equalities import looks_like, parse
+from bikestab.units import LENGTH, quantity
 
 
 def peer(tmp_path, text):
@@ -90,6 +92,34 @@ def test_refused(line, message):
     with pytest.raises(InputError) as caught:
         parse(f"# head\nc = 1\n{line}\n", "x.txt")
     assert str(caught.value).split("\n")[0] == message
+
+
+@pytest.mark.parametrize("value", ["85,5", "-85,5", "85,5 +/- 0.5", "85 +/- 0,5", "85,5+/-0,5", "1,86,87"])
+def test_a_decimal_comma(value):
+    with pytest.raises(InputError, match=r"mB: .* has a decimal comma"):
+        parse(f"mB = {value}\n", "x.txt")
+
+
+@pytest.mark.parametrize("value", ["85, 86", "85.0,86.0", "85.5,86", "85+/-1,86+/-1", "85 ,86.0"])
+def test_no_decimal_comma(value):
+    assert 85 <= parse(f"mB = {value}\n", "x.txt").values["mB"] <= 86
+
+
+@pytest.mark.parametrize("number", ["1_000", "\u0661", "1\uff10", "2*1_0", "0x10", "1/0", "2**3", "1*"])
+def test_no_number(number):
+    assert parse(f"w = {number}\n", "x.txt").values == {"w": number}
+    with pytest.raises(InputError, match="is not"):
+        parse(f"w = {number} +/- 1\n", "x.txt")
+    with pytest.raises(InputError, match="is not a number"):
+        quantity(number, LENGTH)
+
+
+def test_blanks_take_no_time():
+    blanks = 200_000 * " "
+    begin = time.process_time()
+    assert parse(f"a = 1{blanks}x={blanks}\n", "x.txt").values == {"a": f"1{blanks}x="}
+    assert parse(f"a{blanks}= 1{blanks}*{blanks}*\nb = {1000 * '1'}x\n", "x.txt").values["a"][:1] == "1"
+    assert time.process_time() - begin < 1
 
 
 def test_recognised():

@@ -83,6 +83,25 @@ def test_extra_keys_that_contradict(load, key, value, words):
     )
 
 
+def test_extra_keys_beside_units_and_uncertainties(tmp_path):
+    """They are compared in SI units; what could not be compared is not said to agree."""
+    path = tmp_path / "b.yaml"
+
+    def load(**changes):
+        path.write_text("".join(f"{k}: {v}\n" for k, v in {**BENCHMARK, **changes}.items()), "utf-8")
+        return Bicycle.load(str(path))
+
+    assert load(w="1020mm", lam="18deg", xF=1.02).notes == ("follow from the others, and agree: xF",)
+    for changes in ({"w": "1.02m", "d1": 99}, {"lam": "18deg", "d3": 5}, {"w": '"1.02 +/- 0.01"', "xF": 5}):
+        with pytest.raises(InputError, match="is not what the others say"):
+            load(**changes)
+    assert load(kRbb=0.1).notes == ("cannot be compared with the others, left out: kRbb",)
+    for key in ("mB", "xF", "yB", "nonsense"):
+        for digits in (309, 400, 401):
+            with pytest.raises(InputError, match=key if digits <= 400 else "401 characters"):
+                load(**{key: digits * "9"})
+
+
 def test_no_number(load):
     with pytest.raises(InputError) as caught:
         load({**BENCHMARK, "mB": math.nan})
