@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 from bikestab.algebra import Polynomial, Ratio, common_denominator
 from bikestab.bicycle import Bicycle
-from bikestab.letters import PARAMETERS, Model, letters, with_radii
+from bikestab.letters import PARAMETERS, Model, letters
 from bikestab.model import entries_of
 from bikestab.notation import reduced
 
@@ -45,9 +46,11 @@ def table_formulas(bicycle: Bicycle, varied: Sequence[str] = (), *, model: Model
     if bicycle.bodies:
         numbers = reduced(numbers)
     p = {name: x if isinstance(x, Ratio) else constant(x) for name, x in numbers.items()}
-    n = letters(
-        with_radii(bicycle, p, p["l2"] - p["c"]), symbols["sin"], symbols["cos"], symbols["sigma"], model
-    )
+    for i in "12":
+        if not p[f"C{i}"].top:  # what never spins may be a skate, without a radius
+            p[f"R{i}"] = constant(1)
+    parts = SimpleNamespace(**p, ahead=p["l2"] - p["c"])
+    n = letters(parts, symbols["sin"], symbols["cos"], symbols["sigma"], model)
     entries = entries_of(n)
     below = common_denominator(entries.values())
     return Formulas(variables, {place: entry.over(below) for place, entry in entries.items()}, below)

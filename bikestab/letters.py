@@ -102,16 +102,16 @@ def _numbers(bicycle: Bicycle | Machines) -> SimpleNamespace:
         numbers = {name: x if isinstance(x, Twofold) else Twofold(x) for name, x in numbers.items()}
         numbers |= {name: Twofold(getattr(bicycle, name)) for name in getattr(bicycle, "parts", ())}
         ahead = numbers["l2"] - numbers["c"]
-    return with_radii(bicycle, numbers, ahead)
+    return _with_radii(bicycle, numbers, ahead)
 
 
 def _doubles(bicycle: Bicycle | Machines) -> SimpleNamespace:
     """The same as doubles."""
     numbers = {name: getattr(bicycle, name) for name in PARAMETERS}
-    return with_radii(bicycle, numbers, bicycle.l2 - bicycle.c)
+    return _with_radii(bicycle, numbers, bicycle.l2 - bicycle.c)
 
 
-def with_radii(bicycle: Bicycle | Machines, numbers: dict[str, Any], ahead: Any) -> SimpleNamespace:
+def _with_radii(bicycle: Bicycle | Machines, numbers: dict[str, Any], ahead: Any) -> SimpleNamespace:
     """What does not spin gets a radius, for it may be a skate, with none."""
     for i in "12":
         numbers[f"R{i}"] = numbers[f"R{i}"] + 1 * (getattr(bicycle, f"C{i}") == 0)

@@ -16,7 +16,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.dual import Dual, seed
 from bikestab.letters import letters
 from bikestab.model import Model, entries_of
-from bikestab.notation import MEIJAARD, reduced
+from bikestab.notation import reduced
 from bikestab.polynomials import Polynomial
 from bikestab.routh import hurwitz3_of
 from bikestab.sines import sine_cosine
@@ -42,7 +42,7 @@ class Slopes(NamedTuple):
 def free_parameters(bicycle: Bicycle) -> dict[str, float]:
     """The numbers of a bicycle in its notation, without tilt and trail, and with what it has by default."""
     given = {**_DEFAULTS, **bicycle.given}
-    apart = {"lam", "sigma", "trail"} | ({"c"} if bicycle.notation is MEIJAARD else set())
+    apart = {"lam", "sigma", "trail"} | ({"c"} if bicycle.bodies is not None else set())
     return {name: given[name] for name in bicycle.notation if name in given and name not in apart}
 
 
@@ -67,7 +67,7 @@ def slopes_of(
         return Dual(Twofold(np.asarray(value)), seed(variables, name, lam.ndim))
 
     numbers = {name: variable(name, value) for name, value in given.items()}
-    if bicycle.notation is MEIJAARD:
+    if bicycle.bodies is not None:
         numbers = reduced(numbers)
     skates = [i for i in "12" if getattr(bicycle, f"R{i}") == 0]
     for i in skates:

@@ -1,9 +1,8 @@
 """Check a certificate of stability, slowly and plainly: ``python checker.py FILE``.
 
-It shares nothing with the program that wrote the certificate. All numbers are fractions; the equations of
-motion are those of Dikarev, Dikareva and Fufaev (1981), with sums over the rigid bodies in place of the
-two parts' centres of mass; a block is right if on it all Bernstein coefficients of the conditions have the
-sign that its verdict says.
+It shares nothing with the program that wrote it. All numbers are fractions; the equations of motion are
+those of Dikarev, Dikareva and Fufaev (1981), with sums over the rigid bodies in place of two parts; a block
+is right if on it all Bernstein coefficients of the conditions have the sign that its verdict says.
 """
 
 from __future__ import annotations
@@ -12,11 +11,14 @@ import itertools
 import json
 import sys
 from fractions import Fraction as F
-from math import comb, prod
+from math import comb, inf, prod
 from pathlib import Path
 from typing import Any
 
-STABLE, UNSTABLE = 1, 2
+STABLE, UNSTABLE, MOST = 1, 2, 10**7
+TWO = "c g delta m1 l1 h1 A1 B1 D1 C1 R1 m2 l2 h2 A2 B2 D2 C2 R2"
+FOUR = "w c lam g delta rR mR IRxx IRyy xB zB mB IBxx IByy IBzz IBxz xH zH mH IHxx IHyy IHzz IHxz rF mF"
+FOUR += " IFxx IFyy rider.m rider.x rider.z rider.Ixx rider.Iyy rider.Izz rider.Ixz rider.inertia_mass"
 Poly = dict[tuple[int, ...], F]  # coefficients by the powers of sin, cos, σ, V and what varies
 
 Bodies = list[tuple[Poly, ...]]  # mass, forward, up, Ixx, Izz, ∫ x h dm
@@ -58,17 +60,25 @@ def bodies_of(n: dict[str, Poly], four: bool) -> tuple[list[Bodies], dict[str, P
     zero = by(0, n["g"])
     wheel = (n["mR"], zero, n["rR"], n["IRxx"], n["IRxx"], zero)
     frame = (n["mB"], n["xB"], by(-1, n["zB"]), n["IBxx"], n["IBzz"], n["IBxz"])
+    rear = [wheel, frame]
+    if "rider.m" in n:
+        inertia = [n[f"rider.I{axes}"] for axes in ("xx", "zz", "xz")]
+        for a in n.get("rider.inertia_mass", {}).values():  # that of a rider of this mass, which is a number
+            inertia = [times(n["rider.m"], {p: b / a for p, b in each.items()}) for each in inertia]
+        rear.append((n["rider.m"], n["rider.x"], by(-1, n["rider.z"]), *inertia))
     fork = (n["mH"], n["xH"], by(-1, n["zH"]), n["IHxx"], n["IHzz"], n["IHxz"])
     steered = (n["mF"], n["w"], n["rF"], n["IFxx"], n["IFxx"], zero)
     others = {"c": n["w"], "g": n["g"], "delta": n["delta"], "C1": n["IRyy"], "R1": n["rR"], "C2": n["IFyy"]}
-    return [[wheel, frame], [fork, steered]], {**others, "R2": n["rF"]}
+    return [rear, [fork, steered]], {**others, "R2": n["rF"]}
 
 
 def conditions(machine: dict[str, str], varied: list[str], four: bool, refined: bool) -> list[Poly]:
     """p0 … p4 and hurwitz3, times what is positive."""
     one: Poly = {(0,) * (size := 4 + len(varied)): F(1)}
     sin, cos, sigma, V, *free = ({tuple(int(i == k) for i in range(size)): F(1)} for k in range(size))
-    numbers = {"g": "0x0p0", "delta": "0x0p0", **machine}
+    numbers = {"g": (9.81).hex(), "delta": "0x0p0", **machine}
+    if set(numbers) - set((FOUR if four else TWO).split()):
+        raise ValueError(f"the block of numbers has others than {FOUR if four else TWO}")
     n = {key: {(0,) * size: F(float.fromhex(text))} for key, text in numbers.items()}
     n |= dict(zip(varied, free, strict=True))
     (rear, front), k = bodies_of(n, four)
@@ -165,16 +175,20 @@ def half_angle(lam: float, up: bool) -> F:
 
 def check(certificate: dict[str, Any]) -> str:
     """The share of the cells that is proved; raises ValueError where the certificate does not hold."""
-    four = certificate["notation"] == "four bodies"
+    four = ["two parts", "four bodies"].index(certificate["notation"]) == 1
     sides = conditions(certificate["machine"], certificate["varied"], four, certificate["model"] == "refined")
     halves = [in_half_angle(side) for side in sides]
     edges = [[float.fromhex(text) for text in axis] for axis in certificate["edges"]]
-    if any(b < a for axis in edges for a, b in itertools.pairwise(axis)):
-        raise ValueError("the edges do not ascend")
+    total = prod(len(axis) - 1 for axis in edges)
+    if total > MOST or any(not (-inf < a <= b < inf) for axis in edges for a, b in itertools.pairwise(axis)):
+        raise ValueError("the edges of blocks do not ascend, or are too many")
+    if not (-1.57 < edges[0][0] <= edges[0][-1] < 1.57 and edges[2][0] >= 0):
+        raise ValueError("blocks have tilts that do not meet the ground, or negative speeds")
     seen: set[tuple[int, ...]] = set()
     for ends, verdict in certificate["blocks"]:
-        cells = set(itertools.product(*(range(a, b) for a, b in ends)))
-        if cells & seen or not all(0 <= a < b < len(axis) for (a, b), axis in zip(ends, edges, strict=True)):
+        inside = all(0 <= a < b < len(axis) for (a, b), axis in zip(ends, edges, strict=True))
+        cells = set(itertools.product(*(range(a, b) for a, b in ends))) if inside else set()
+        if not inside or cells & seen:
             raise ValueError(f"block {ends} overlaps another one or leaves the box")
         seen |= cells
         low, high = ([axis[e[side]] for e, axis in zip(ends, edges, strict=True)] for side in (0, 1))
@@ -185,11 +199,10 @@ def check(certificate: dict[str, Any]) -> str:
             speeds = (F(low[2]) ** power, F(high[2]) ** power)
             signs.append(coefficients(poly, [*box[:2], speeds, *box[3:]]))
         at_rest = low[2] == 0 and any(rest for *_, rest in halves)
-        stable = all(min(values) > 0 for values in signs) and not at_rest
-        unstable = min(signs[4]) > 0 and any(max(values) < 0 for values in signs)
-        if (verdict, True) not in ((STABLE, stable), (UNSTABLE, unstable)):
-            raise ValueError(f"block {ends} is not proved to be {('', 'stable', 'unstable')[verdict]}")
-    total = prod(len(axis) - 1 for axis in edges)
+        right = {STABLE: all(min(values) > 0 for values in signs) and not at_rest}
+        right[UNSTABLE] = min(signs[4]) > 0 and any(max(values) < 0 for values in signs)
+        if not right.get(verdict):
+            raise ValueError(f"block {ends} is not proved: verdict {verdict}")
     return f"{len(certificate['blocks'])} blocks hold, {len(seen)} of {total} cells"
 
 

@@ -154,6 +154,11 @@ def prove(
             f"{len(ranges)} tolerances at once are more than the {MOST_TOLERANCES} that can be proved",
             hint="leave some out, or prove boxes of them one after the other",
         )
+    for name, edges in (("lam", lam), ("sigma", sigma), ("V", V)):
+        if np.any(np.diff(edges) < 0):
+            raise InputError(
+                "edges do not ascend", key=(name,), hint="allowed: from the lowest to the highest"
+            )
     for end in (0, -1):
         check_tilt(float(lam[end]), ("lam",))
         check_trail(float(sigma[end]), ("sigma",))

@@ -8,7 +8,6 @@ from typing import Any, TypedDict
 from bikestab.bicycle import Bicycle
 from bikestab.design.sensitivity import Sensitivity
 from bikestab.errors import InputError
-from bikestab.notation import MEIJAARD
 from bikestab.records import Interval, design_record, interval_records
 from bikestab.speeds import UNBOUNDED
 from bikestab.stability import stable_intervals
@@ -87,9 +86,7 @@ def tried(found: Sensitivity) -> list[Tried]:
     Computed anew, not from derivatives. Without what makes no machine.
     """
     bicycle = found.bicycle
-    body = (
-        ("mB", "IBxx", "IByy", "IBzz", "IBxz") if bicycle.notation is MEIJAARD else ("m1", "A1", "B1", "D1")
-    )
+    body = ("mB", "IBxx", "IByy", "IBzz", "IBxz") if bicycle.bodies is not None else ("m1", "A1", "B1", "D1")
     given = bicycle.given
     changes = {
         f"delta {bicycle.delta:g} -> {bicycle.delta + 1:g} kg m²/s": {"delta": bicycle.delta + 1},

@@ -13,11 +13,10 @@ from typing import Literal, get_args
 import numpy as np
 
 from bikestab.arguments import Given, design_of
-from bikestab.bicycle import PAPER, Bicycle
+from bikestab.bicycle import Bicycle
 from bikestab.design.rates import Rate, best_rate
 from bikestab.errors import InputError, nearest
 from bikestab.model import Floats, Model
-from bikestab.notation import MEIJAARD
 from bikestab.slopes import Slopes, by_name, condition_at, free_parameters, slopes_of
 from bikestab.speeds import CAPSIZE, REST, WEAVE, Intervals
 from bikestab.stability import stable_intervals
@@ -129,7 +128,7 @@ def sensitivity(
         raise InputError(f"{hold!r} cannot be held", key=("hold",), hint=nearest(str(hold), HOLDS))
     machine = bicycle.with_delta(delta)
     tilt, trail = (float(value) for value in design_of(machine, lam, sigma))
-    hold = hold or ("trail" if machine.notation is MEIJAARD else "sigma")
+    hold = hold or ("trail" if machine.bodies is not None else "sigma")
     slopes = slopes_of(machine, tilt, trail, model=model)
     ends = [
         [
@@ -180,7 +179,7 @@ def two_parts(bicycle: Bicycle) -> Bicycle:
 
 def skates(bicycle: Bicycle) -> dict[str, float]:
     """NaN for the spin inertias of wheels of no radius, by their names in the bicycle's notation."""
-    names = ("IRyy", "IFyy") if bicycle.notation is MEIJAARD else ("C1", "C2")
+    names = ("IRyy", "IFyy") if bicycle.bodies is not None else ("C1", "C2")
     radii = bicycle.R1, bicycle.R2
     return {name: math.nan for name, radius in zip(names, radii, strict=True) if radius == 0}
 
@@ -194,7 +193,7 @@ def held(
     """
     c, R2, cos, tan = bicycle.c, bicycle.R2, math.cos(lam), math.tan(lam)
     found = dict(partial)
-    wheelbase, front = ("w", "rF") if bicycle.notation is MEIJAARD else ("c", "R2")
+    wheelbase, front = ("w", "rF") if bicycle.bodies is not None else ("c", "R2")
     by_sigma = partial["sigma"]
     if hold != "sigma":
         found[wheelbase] -= sigma / c * by_sigma
@@ -202,7 +201,7 @@ def held(
         found[front] += tan / c * by_sigma
         found["lam"] += (R2 / c + sigma * tan) * by_sigma
     found |= {"head_angle": -found["lam"], "trail": by_sigma / c, "offset": -by_sigma / (c * cos)}
-    return found | ({"c": found["trail"]} if bicycle.notation is MEIJAARD else {})
+    return found | ({"c": found["trail"]} if bicycle.bodies is not None else {})
 
 
 def described(
@@ -218,7 +217,7 @@ def described(
         "offset": bicycle.R2 * math.sin(lam) - trail * math.cos(lam),
     }
     values = free_parameters(bicycle)
-    if bicycle.notation is MEIJAARD:
+    if bicycle.bodies is not None:
         values["c"] = trail
     known = {**values, **geometry}
     values = {name: known[name] for name in (*bicycle.notation, *geometry) if name in known}
@@ -227,6 +226,6 @@ def described(
         if name in GEOMETRY:
             units[name], meanings[name] = GEOMETRY[name]
         else:
-            meaning, _, unit = (MEIJAARD if bicycle.notation is MEIJAARD else PAPER)[name].rpartition(" [")
+            meaning, _, unit = bicycle.notation[name].rpartition(" [")
             units[name], meanings[name] = unit.rstrip("]"), meaning
     return values, units, meanings

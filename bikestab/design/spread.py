@@ -19,7 +19,6 @@ from bikestab.errors import InputError, nearest
 from bikestab.limits import MOST_TRAIL
 from bikestab.machines import Machines
 from bikestab.model import Floats, characteristic_table
-from bikestab.notation import MEIJAARD
 from bikestab.speeds import intervals_of
 
 SAMPLES = 20_000
@@ -139,7 +138,7 @@ def _check(found: Sensitivity, deviations: Mapping[str, float]) -> None:
 
 
 def _trails(bicycle: Bicycle) -> tuple[str, ...]:
-    return ("sigma", "trail", "c") if bicycle.notation is MEIJAARD else ("sigma", "trail")
+    return ("sigma", "trail", "c") if bicycle.bodies is not None else ("sigma", "trail")
 
 
 def _sampled(found: Sensitivity, draws: Mapping[str, Floats]) -> tuple[Floats, Floats, int]:

@@ -20,6 +20,7 @@ from bikestab_cli.options import (
     load_bicycle,
     of_file,
     told_as_options,
+    units_of,
 )  # fmt: skip
 from bikestab_cli.output import heading, print_json, tell_file
 from bikestab_cli.progress import progress
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from bikestab.model import Model
 
 MOST_CELLS = 512
+LONG = 20  # blocks; their check is announced
 
 
 @click.command("certify")
@@ -89,7 +91,7 @@ def command(
     Examples:
       bikestab certify configs/quick.yaml
       bikestab certify --bicycle meijaard2007 --lam 17deg:19deg --sigma 0.07:0.085 --V 4.6:5.6
-      bikestab certify --bicycle meijaard2007 --lam 18deg --sigma 0.08 --V 4.6:5.6 --tolerance mB=85+-2
+      bikestab certify --bicycle meijaard2007 --lam 0.3 --sigma 0.08 --V 4.6:5 --tolerance mB=85+-2
       bikestab certify --lam 0.2:0.21 --sigma 0.08 --V 4.1:4.6 --cells 4 -o proof.json
       bikestab certify --verify proof.json
     """
@@ -117,7 +119,7 @@ def command(
         show(0, 10**6)
         proof = prove(
             bicycle, *(edges[name] for name in ("lam", "sigma", "V")), model=model or "refined",
-            tolerances=dict(_tolerance(text, bicycle) for text in tolerance),
+            tolerances=_tolerances(tolerance, bicycle),
             progress=lambda share: show(int(1e6 * share), 10**6),
         )  # fmt: skip
     if certificate:
@@ -158,22 +160,30 @@ def _of_config(name: str) -> tuple[Bicycle, Model, dict[str, Ends | None]]:
     return config.machine, config.model, {axis: config.grid.ends(axis) for axis in ("lam", "sigma", "V")}
 
 
+def _tolerances(texts: tuple[str, ...], bicycle: Bicycle) -> dict[str, Ends]:
+    pairs = [_tolerance(text, bicycle) for text in texts]
+    names = [name for name, _ in pairs]
+    if twice := {name for name in names if names.count(name) > 1}:
+        raise click.BadParameter(f"{twice.pop()} is given twice", param_hint="--tolerance")
+    return dict(pairs)
+
+
 def _tolerance(text: str, bicycle: Bicycle) -> tuple[str, Ends]:
     from bikestab.errors import nearest
-    from bikestab.units import PURE, quantity
+    from bikestab.units import quantity
 
     name, equals, value = text.partition("=")
-    middle, sign, half = value.replace("±", "+-").partition("+-")
+    middle, sign, half = value.replace("±", "+-").replace("+/-", "+-").partition("+-")
     name = name.strip()
     if not equals or not sign:
         raise click.BadParameter(f"{text!r} is not NAME=VALUE+-HALF, e.g. mB=85+-2", param_hint="--tolerance")
-    own = set(bicycle.given) - {"lam", "sigma"} if bicycle.given else set()
-    allowed = own - ({"c"} if bicycle.bodies else set())
+    allowed = {*bicycle.given, "g", "delta"} - {"lam", "sigma", "rider.inertia_mass"}
+    allowed -= {"c"} if bicycle.bodies else set()
     if name not in allowed:
         problem = f"{bicycle.name} has no parameter {name!r} that can vary; {nearest(name, sorted(allowed))}"
         raise click.BadParameter(problem, param_hint="--tolerance")
     try:
-        x, d = quantity(middle, PURE), quantity(half, PURE)
+        x, d = quantity(middle, units_of(name)), quantity(half, units_of(name))
     except InputError as error:
         raise click.BadParameter(
             f"{text!r}: {error.problem}; {error.hint}", param_hint="--tolerance"
@@ -214,10 +224,15 @@ def _verify(name: str) -> None:
         certificate = json.loads(Path(name).read_text(encoding="utf-8"))
         if certificate["format"] != "bikestab certificate 1":
             raise InputError(problem, place=name, hint="'bikestab certify ... -o FILE' writes one")
+        number = len(certificate["blocks"])
+        if number > LONG:
+            click.echo(f"{name}: {number} blocks, 0.2 to 2 s each", err=True)
         click.echo(f"{name}: {check(certificate)}")
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", place=name) from None
-    except (KeyError, TypeError, IndexError, AttributeError, json.JSONDecodeError, UnicodeDecodeError):
+    except (TypeError, LookupError, AttributeError, RecursionError, OverflowError, UnicodeError):
+        raise InputError(problem, place=name, hint="'bikestab certify ... -o FILE' writes one") from None
+    except json.JSONDecodeError:
         raise InputError(problem, place=name, hint="'bikestab certify ... -o FILE' writes one") from None
     except ValueError as error:
         click.echo(f"{name}: {error}", err=True)

@@ -171,3 +171,57 @@ def test_tangents_of_half_angles_lie_between():
             exact = mpmath.tan(mpmath.mpf(angle) / 2)
             assert number(low) <= exact <= number(high)
         assert high - low <= Fraction(1, 2**78)
+
+
+def test_a_rider_is_in_the_certificate_and_in_its_check():
+    """A rider beside the bicycle, whose inertia scales with the mass; what is no parameter is refused."""
+    rider = {"m": 60, "x": 0.35, "z": -1.1, "Ixx": 9.6, "Izz": 2.2, "Ixz": -1.0, "scale_inertia": True}
+    bicycle = Bicycle.from_mapping({**BENCHMARK.given, "mB": 12.0, "rider": rider}).replaced(
+        {"rider.m": 62.0}
+    )
+    found = intervals_of(exact_table(bicycle, bicycle.lam, bicycle.sigma))
+    V = found.V1[0] + np.array([0.3, 0.5]) * (found.V2[0] - found.V1[0])
+    proof = prove(bicycle, np.full(2, bicycle.lam), np.full(2, bicycle.sigma), V)
+    assert proof.verdict == "stable"
+    certificate = json.loads(proof.certificate("1"))
+    assert "hold" in checker.check(certificate)
+    for name, value in (("rider.m", 500.0), ("rider.mass", 60.0)):
+        changed = {**certificate, "machine": {**certificate["machine"], name: value.hex()}}
+        with pytest.raises(ValueError, match="block"):
+            checker.check(changed)
+
+
+def test_a_spin_that_is_zero_may_vary():
+    still = BENCHMARK.replaced({"IFyy": 0.0})
+    design = np.full(2, still.lam), np.full(2, still.sigma)
+    for V, verdict in (((4.5, 5.5), "stable"), ((7.5, 8.0), "unstable")):
+        proof = prove(still, *design, np.array(V), tolerances={"IFyy": (0.279, 0.281)})
+        assert proof.verdict == verdict
+        assert "hold" in checker.check(json.loads(proof.certificate("1")))
+
+
+def test_a_machine_without_its_own_gravity_has_the_usual_one():
+    given = {name: value for name, value in BENCHMARK.given.items() if name != "g"}
+    bicycle = Bicycle.from_mapping(given)
+    proof = prove(bicycle, np.full(2, bicycle.lam), np.full(2, bicycle.sigma), np.array([4.6, 5.5]))
+    assert proof.verdict == "stable"
+    assert "hold" in checker.check(json.loads(proof.certificate("1")))
+
+
+@pytest.mark.parametrize(
+    ("axis", "end", "value"),
+    [(0, 1, 0.205 + 2 * np.pi), (0, 0, -1.6), (2, 0, -4.5), (2, 0, -4.4), (2, 1, np.inf), (1, 0, np.nan)],
+)
+def test_edges_that_no_machine_has_are_refused(axis, end, value):
+    proof = prove(PAPER, *map(np.array, ((0.20, 0.21), (0.080, 0.081), (4.2, 4.5))))
+    certificate = json.loads(proof.certificate("1"))
+    certificate["edges"][axis][end] = float(value).hex()
+    with pytest.raises(ValueError, match="block"):
+        checker.check(certificate)
+    with pytest.raises(ValueError, match="xx"):
+        checker.check({**json.loads(proof.certificate("1")), "notation": "xx"})
+
+
+def test_edges_ascend():
+    with pytest.raises(InputError, match="ascend"):
+        prove(PAPER, np.array([0.21, 0.2]), np.array([0.08, 0.08]), np.array([4.2, 4.5]))

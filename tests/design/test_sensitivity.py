@@ -234,3 +234,17 @@ def test_mistakes(arguments, key, problem):
         sensitivity(Bicycle.preset("meijaard2007"), **arguments)
     assert error.value.key == (key,)
     assert problem in error.value.problem
+
+
+def test_a_rider_beside_the_bicycle():
+    """By the rider's numbers and the frame's, against differences of speeds."""
+    rider = {"m": 60, "x": 0.35, "z": -1.1, "Ixx": 9.6, "Izz": 2.2, "Ixz": -1.0, "scale_inertia": True}
+    given = {**Bicycle.preset("meijaard2007").given, "mB": 12.0, "rider": rider}
+    bicycle = Bicycle.from_mapping(given)
+    found = sensitivity(bicycle)
+    for name, step in (("rider.m", 1e-3), ("rider.x", 1e-5), ("rider.Ixx", 1e-3), ("mB", 1e-3)):
+        own = bicycle.given[name]
+        ends = [bs.stable_intervals(bicycle.replaced({name: own + way * step})) for way in (1, -1)]
+        difference = (ends[0].V1[0] - ends[1].V1[0]) / (2 * step)
+        assert found.dV1[name][0] == pytest.approx(difference, rel=1e-6), name
+    assert found.units["rider.m"] == "kg"
