@@ -20,9 +20,9 @@ from bikestab_cli.options import (
     load_bicycle,
     of_file,
     told_as_options,
-    units_of,
 )  # fmt: skip
 from bikestab_cli.output import heading, print_json, tell_file
+from bikestab_cli.parameters import parameter
 from bikestab_cli.progress import progress
 
 from bikestab.errors import InputError
@@ -170,7 +170,6 @@ def _tolerances(texts: tuple[str, ...], bicycle: Bicycle) -> dict[str, Ends]:
 
 def _tolerance(text: str, bicycle: Bicycle) -> tuple[str, Ends]:
     from bikestab.errors import nearest
-    from bikestab.units import quantity
 
     name, equals, value = text.partition("=")
     middle, sign, half = value.replace("±", "+-").replace("+/-", "+-").partition("+-")
@@ -183,7 +182,7 @@ def _tolerance(text: str, bicycle: Bicycle) -> tuple[str, Ends]:
         problem = f"{bicycle.name} has no parameter {name!r} that can vary; {nearest(name, sorted(allowed))}"
         raise click.BadParameter(problem, param_hint="--tolerance")
     try:
-        x, d = quantity(middle, units_of(name)), quantity(half, units_of(name))
+        x, d = parameter(name, middle), parameter(name, half)
     except InputError as error:
         raise click.BadParameter(
             f"{text!r}: {error.problem}; {error.hint}", param_hint="--tolerance"

@@ -196,7 +196,6 @@ def test_a_full_disk_leaves_no_file(bikestab, volumes, monkeypatch, tmp_path):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("pathlib.Path.write_bytes", full)
-    monkeypatch.setattr("os._exit", sys.exit)
     code, out, err = bikestab("export", volumes["1981"], "--mesh", "r.ply", "--cells", 10)
     assert (code, out, err) == (3, "", "error: r.ply: the disk is full\n")
     assert not list(tmp_path.iterdir())
