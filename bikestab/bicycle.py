@@ -125,11 +125,11 @@ class Bicycle:
 
     def replaced(self, values: Mapping[str, float]) -> Bicycle:
         """A copy with other values of some parameters in its notation; InputError names the parameter."""
-        gone = superseded(values, "c" if self.bodies else "sigma")
+        gone = superseded(values, "c" if self.bodies else "sigma") | values.keys()
         kept = {k: v for k, v in self.given.items() if k not in gone}
         bicycle = Bicycle.from_mapping({**kept, **values, "source": self.source}, name=self.name)
-        deviations = {k: sd for k, sd in self.deviations.items() if k not in values}
-        correlations = {pair: r for pair, r in self.correlations.items() if not {*pair} & {*values}}
+        deviations = {k: sd for k, sd in self.deviations.items() if k not in gone}
+        correlations = {pair: r for pair, r in self.correlations.items() if not {*pair} & gone}
         note = left_behind(self.given, values)
         notes = (*self.notes, note) if note and note not in self.notes else self.notes
         return bicycle.measured(deviations, correlations, notes)
@@ -189,6 +189,7 @@ class Bicycle:
     @classmethod
     def from_file(cls, path: str | Path) -> Bicycle:
         """A bicycle from a file that ``bikestab.formats`` reads; InputError names file, line and key."""
+        from bikestab.formats.carried import carried
         from bikestab.formats.kinds import expected  # what comes with the package needs no reader
         from bikestab.formats.reading import read
 
@@ -196,6 +197,7 @@ class Bicycle:
             found = read(path)
             try:
                 bicycle = cls.from_mapping(found.values, name=Path(path).stem)
+                found = carried(found, lambda values: cls.from_mapping(values).given)
             except InputError as error:
                 raise found.located(error) from None
         return bicycle.measured(found.deviations, found.correlations, found.notes)
@@ -204,10 +206,8 @@ class Bicycle:
     def preset(cls, name: str) -> Bicycle:
         """One of the bicycles that come with the package; see ``preset_names``."""
         if name not in preset_names():
-            raise InputError(
-                f"there is no bicycle {name!r}",
-                hint=f"{nearest(name, preset_names())} (see 'bikestab bicycles')",
-            )
+            hint = f"{nearest(name, preset_names())} (see 'bikestab bicycles')"
+            raise InputError(f"there is no bicycle {name!r}", hint=hint)
         return cls.from_mapping(yamltext.plain(preset_text(name)) or {}, name=name)
 
     @classmethod

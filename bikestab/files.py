@@ -44,7 +44,7 @@ def written(path: str | Path) -> Iterator[Path]:
                 _pour(part, sink)
             return
         target = linked(path)
-        part = target.parent / f".{os.getpid()}.part{target.suffix[:16]}"
+        part = target.parent / f".{os.urandom(8).hex()}.part{target.suffix[:16]}"  # nobody else's on any host
         with beside(target, part):
             yield part
             _finish(part, there)

@@ -10,8 +10,10 @@ import faulthandler
 import os
 import pickle
 import signal
+import traceback
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 
 from bikestab.errors import InputError
 
@@ -38,18 +40,27 @@ def watched(check: Callable[[], None]) -> None:
     os.close(theirs)
     status = None
     try:
-        _, status = os.waitpid(child, 0)
+        status = _ended(child)
         answer = os.read(ours, _MOST) if os.waitstatus_to_exitcode(status) == 0 else b""
     finally:
         os.close(ours)
         if status is None:  # Ctrl-C
-            os.kill(child, signal.SIGKILL)
-            os.waitpid(child, 0)
+            with suppress(ProcessLookupError):
+                os.kill(child, signal.SIGKILL)
+            _ended(child)
     if not answer:
         raise _lost(-os.waitstatus_to_exitcode(status))
     error = pickle.loads(answer)
     if error:
         raise error
+
+
+def _ended(child: int) -> int:
+    """The status of a child that has come to its end; 0 where only that is known, as SIGCHLD is ignored."""
+    try:
+        return os.waitpid(child, 0)[1]
+    except ChildProcessError:
+        return 0
 
 
 def _answer(check: Callable[[], None], pipe: int) -> None:
@@ -62,8 +73,10 @@ def _answer(check: Callable[[], None], pipe: int) -> None:
         for stream in (1, 2):
             os.dup2(nowhere, stream)
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT + 1))
-        os.write(pipe, pickle.dumps(_outcome(check)))
+        _, most = resource.getrlimit(resource.RLIMIT_CPU)  # beyond which nobody may go
+        most = LIMIT + 1 if most == resource.RLIM_INFINITY else min(LIMIT + 1, most)
+        resource.setrlimit(resource.RLIMIT_CPU, (min(LIMIT, most), most))
+        os.write(pipe, _pickled(_outcome(check)))
         code = 0
     finally:
         os._exit(code)
@@ -75,6 +88,19 @@ def _outcome(check: Callable[[], None]) -> Exception | None:
     except Exception as error:  # whatever it is, the parent raises it
         return error
     return None
+
+
+def _pickled(error: Exception | None) -> bytes:
+    """The error as bytes; one that cannot go through a pipe in words."""
+    try:
+        answer = pickle.dumps(error)
+        pickle.loads(answer)
+    except Exception:  # whatever pickle makes of it
+        answer = b""
+    if 0 < len(answer) <= _MOST:
+        return answer
+    words = "".join(traceback.format_exception_only(error)).strip()
+    return pickle.dumps(RuntimeError(words[: _MOST // 8]))
 
 
 def _lost(number: int) -> InputError:

@@ -22,6 +22,18 @@ def test_the_file_appears_when_it_is_whole(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_two_at_once_in_one_folder(tmp_path):
+    one, two = tmp_path / "one.csv", tmp_path / "two.csv"
+    with written(one) as first, written(two) as second, written(one) as third:
+        assert len({first, second, third}) == 3
+        for part, text in ((first, "1"), (second, "2"), (third, "3")):
+            part.write_text(text)
+    assert (one.read_text(), two.read_text()) == ("1", "2")  # the last to be finished stays
+    assert sorted(tmp_path.iterdir()) == [one, two]
+    (tmp_path / "new").touch()
+    assert one.stat().st_mode == (tmp_path / "new").stat().st_mode
+
+
 @pytest.mark.parametrize("error", [OSError(28, "full"), ValueError("no"), KeyboardInterrupt()])
 def test_after_an_error_the_old_file_is_there(tmp_path, error):
     path = tmp_path / "a.csv"

@@ -3,6 +3,8 @@
 import json
 import os
 import signal
+import subprocess
+import sys
 import time
 from functools import partial
 
@@ -341,6 +343,47 @@ def test_a_check_raises_what_it_raises_here():
     with pytest.raises(InputError) as caught:
         watched.watched(check)
     assert str(caught.value.at("a.h5")) == "a.h5: lam: is bad\nallowed: good"
+
+
+def test_a_limit_of_processor_time_below_ours(equal):
+    """As of ``ulimit -t 3``, in a process of its own: the limit of this one must stay."""
+    program = (
+        "import resource, sys; resource.setrlimit(resource.RLIMIT_CPU, (3, 3));"
+        "import bikestab; print(bikestab.open_volume(sys.argv[1]).title)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, equal[0]], capture_output=True, text=True, check=False
+    )
+    assert (done.stdout, done.stderr) == ("a small scan\n", "")
+
+
+def test_where_the_ends_of_children_are_not_kept(equal):
+    before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    try:
+        with Volume(equal[0]) as volume:
+            assert volume.title == "a small scan"
+        with pytest.raises(InputError, match="HDF5 crashes over it"):
+            watched.watched(lambda: os.kill(os.getpid(), signal.SIGSEGV))
+        with pytest.raises(ValueError, match="odd"):
+            watched.watched(partial(odd, ValueError("odd")))
+    finally:
+        signal.signal(signal.SIGCHLD, before)
+
+
+def odd(error):
+    raise error
+
+
+class Unpicklable(Exception):
+    def __init__(self, one, two):
+        super().__init__(f"{one} and {two}")
+        self.hook = lambda: None
+
+
+@pytest.mark.parametrize("error", [Unpicklable("this", "that"), ValueError("this and that" + 5000 * "!")])
+def test_an_error_that_cannot_go_through_the_pipe(error):
+    with pytest.raises(RuntimeError, match=rf"{type(error).__name__}: this and that"):
+        watched.watched(partial(odd, error))
 
 
 def test_nothing_is_left_of_a_check_that_is_interrupted(monkeypatch):

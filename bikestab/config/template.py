@@ -13,6 +13,7 @@ from bikestab.errors import InputError
 from bikestab.presets import preset_names
 
 NOT_DRAWN = "# not drawn, as the grid has their values: "
+INDEPENDENT = "# drawn as independent, though some of them are correlated in the bicycle's file"
 _NO_ENSEMBLE = """\
 # ensemble:                     # machines drawn at random: how probable stability is at each point
 #   delta: {uniform: [0, 2]}    # or {normal: [mean, standard deviation]}; any parameters
@@ -72,6 +73,8 @@ def _ensemble(bicycle: Bicycle) -> str:
     ]
     lines += [f"  {name}: {{normal: [{bicycle.given[name]!r}, {sd!r}]}}" for name, sd in deviations.items()]
     lines += ["  samples: 1000", "  seed: 1"]
+    if any({*pair} <= deviations.keys() for pair in bicycle.correlations):
+        lines.append(INDEPENDENT)
     if on_grid:
         lines.append(f"{NOT_DRAWN}{', '.join(on_grid)}")
     return "\n".join(lines)

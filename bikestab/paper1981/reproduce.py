@@ -66,7 +66,7 @@ def draw_all(numbers: Study, sampling: Sampling) -> Iterator[tuple[str, Figure]]
 
 def _prepare(folder: Path) -> None:
     """Make the folder, and see that files can be made in it."""
-    probe = folder / f".{os.getpid()}.part"
+    probe = folder / f".{os.urandom(8).hex()}.part"
     try:
         folder.mkdir(parents=True, exist_ok=True)
         probe.touch()

@@ -137,7 +137,7 @@ def _written_alike(volume: Volume, plan: Plan) -> bool:
 def _replace_texts(path: Path, other: dict[str, str]) -> None:
     """Put other texts into a complete volume. It is copied: readers may have it open, and a kill may come."""
     path = linked(path)
-    copy = path.with_name(f"{path.name}.{os.getpid()}.partial")
+    copy = path.with_name(f"{path.name}.{os.urandom(8).hex()}.partial")
     try:
         with beside(path, copy):
             shutil.copyfile(path, copy)

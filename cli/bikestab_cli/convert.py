@@ -53,6 +53,8 @@ def command(bicycle_name: str, output: str | None, rider: str | None, notation: 
         if deviations:
             click.echo("note: uncertainties are those of the given parameters; left out", err=True)
             deviations = {}
+    if deviations and bicycle.correlations:
+        click.echo("note: correlations of the uncertainties cannot be written; left out", err=True)
     warn(bicycle)
     ending = Path(output).suffix.lower() if output else ".yaml"
     if not ending:

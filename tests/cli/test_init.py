@@ -50,3 +50,20 @@ def test_init_with_uncertainties(bikestab):
     code, out, err = bikestab("init", "b.yaml", "--bicycle", "meijaard2007", "--uncertain")
     assert (code, out) == (2, "")
     assert "the bicycle 'meijaard2007' has no uncertainties to draw" in err
+
+
+def test_uncertain_radii_of_both_wheels(bikestab):
+    numbers = Bicycle.preset("dikarev1981").numbers()
+    lines = [f"{k}: {v}\n" for k, v in numbers.items() if v is not None and k not in ("R1", "R2")]
+    Path("radii.yaml").write_text("".join(lines) + 'R: "0.35 +/- 0.01"\n', "utf-8")
+    assert bikestab("init", "mine.yaml", "--bicycle", "radii.yaml", "--uncertain")[0] == 0
+    config = load_config("mine.yaml")
+    assert {k: v.normal for k, v in config.ensemble.parameters.items()} == dict.fromkeys(
+        ("R1", "R2"), (0.35, 0.01)
+    )
+    assert "# drawn as independent, though some of them are correlated" in Path("mine.yaml").read_text(
+        "utf-8"
+    )
+    code, text, err = bikestab("convert", "radii.yaml")
+    assert (code, text.count("0.35 +/- 0.01")) == (0, 2)
+    assert "note: correlations of the uncertainties cannot be written; left out\n" in err

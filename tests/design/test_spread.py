@@ -7,6 +7,7 @@ import pytest
 from bicycleparameters.bicycle import benchmark_par_to_canonical
 
 from bikestab.bicycle import Bicycle
+from bikestab.design.draws import drawn
 from bikestab.design.sensitivity import sensitivity
 from bikestab.design.spread import own_spread, plain, spread
 from bikestab.errors import InputError
@@ -63,6 +64,21 @@ def test_small_deviations_follow_the_linear_rule():
     for end in (result["V1"], result["V2"]):
         assert end["sampled"] == pytest.approx(end["linear"], rel=5 / math.sqrt(2 * 20_000))
         assert end["median"] == pytest.approx(end["own"], abs=5 * end["linear"] / math.sqrt(20_000))
+
+
+@pytest.mark.parametrize("r", [1.0, -1.0])
+def test_parameters_of_one_measurement(r):
+    """A correlation of ±1: the draws are one line, and the linear rule is that of the sum."""
+    names = ["IFyy", "mB", "IRyy"]
+    draws = drawn(dict.fromkeys(names, 1.0), names, dict.fromkeys(names, 0.1), {("IRyy", "IFyy"): r}, 4000, 1)
+    moved = {name: values - 1 for name, values in draws.items()}
+    assert moved["IFyy"] == pytest.approx(r * moved["IRyy"], abs=1e-15)
+    assert moved["IFyy"].std() == pytest.approx(0.1, rel=0.05)
+    assert abs(np.corrcoef(moved["IFyy"], moved["mB"])[0, 1]) < 0.06
+    found = spread(
+        sensitivity(BENCHMARK), {"IFyy": 0.001, "IRyy": 0.001}, {("IRyy", "IFyy"): r}, samples=2000
+    )
+    assert found["V1"]["sampled"] == pytest.approx(found["V1"]["linear"], rel=0.06)
 
 
 def test_correlations_matter():

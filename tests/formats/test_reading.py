@@ -124,3 +124,59 @@ def test_deviations(tmp_path):
     assert heavier.deviations == {k: sd for k, sd in bicycle.deviations.items() if k != "mB"}
     assert bicycle.with_delta(1.0).deviations == bicycle.deviations
     assert bicycle == Bicycle.from_mapping(BENCHMARK | {"name": "measured"})
+
+
+PAPER = {k: v for k, v in Bicycle.preset("dikarev1981").numbers().items() if v is not None and k != "sigma"}
+
+
+def uncertain(tmp_path, values):
+    """A bicycle from a file of these."""
+    path = tmp_path / "u.yaml"
+    path.write_text("".join(f"{k}: {v}\n" for k, v in values.items()), "utf-8")
+    return Bicycle.load(str(path))
+
+
+def test_uncertainties_of_keys_that_stand_for_others(tmp_path):
+    rest = {k: v for k, v in BENCHMARK.items() if k not in ("lam", "c")}
+    found = uncertain(tmp_path, {**rest, "head_angle": "1.2566 +/- 0.017", "trail": "0.08 +/- 0.002"})
+    assert found.deviations == pytest.approx({"lam": 0.017, "c": 0.002}, rel=1e-9)
+    assert found.correlations == {}
+    assert found.replaced({"head_angle": 1.2}).deviations == pytest.approx({"c": 0.002}, rel=1e-9)
+
+    radii = {k: v for k, v in PAPER.items() if k not in ("R1", "R2")}
+    both = uncertain(tmp_path, {**radii, "R": "0.35 +/- 0.01"})
+    assert both.deviations == {"R1": 0.01, "R2": 0.01}
+    assert both.correlations == {("R1", "R2"): pytest.approx(1, abs=1e-15)}
+
+    own = uncertain(tmp_path, {**PAPER, "c": "1.04 +/- 0.01", "trail": "0.08 +/- 0.002"})  # σ = trail/c
+    parts = (0.002 / 1.04, 0.08 * 0.01 / 1.04**2)
+    assert own.deviations == pytest.approx({"c": 0.01, "sigma": math.hypot(*parts)}, rel=1e-8)
+    assert own.correlations["c", "sigma"] == pytest.approx(-parts[1] / math.hypot(*parts), rel=1e-8)
+
+
+def test_an_uncertain_offset(tmp_path):
+    """The trail is (rF sin λ − b)/cos λ; by derivatives worked out by hand."""
+    rest = {k: v for k, v in BENCHMARK.items() if k != "c"}
+    lam, b = rest["lam"], 0.032
+    found = uncertain(
+        tmp_path, {**rest, "lam": f"{lam} +/- 0.01", "offset": f"{b} +/- 0.001", "mB": "85 +/- 1"}
+    )
+    by_lam = 0.01 * (0.35 - b * math.sin(lam)) / math.cos(lam) ** 2
+    by_b = 0.001 / math.cos(lam)
+    assert found.deviations == pytest.approx({"lam": 0.01, "mB": 1, "c": math.hypot(by_lam, by_b)}, rel=1e-8)
+    assert list(found.correlations.values()) == pytest.approx([by_lam / math.hypot(by_lam, by_b)], rel=1e-8)
+    with pytest.raises(InputError, match=r"line 27: offset: its uncertainty changes nothing"):
+        uncertain(
+            tmp_path, {**rest, "head_angle": math.pi / 2 - lam, "offset": "0.03207 +/- 0.001", "trail": 0.08}
+        )
+
+
+def test_a_rider_with_uncertainties(tmp_path):
+    rider = "{m: 10 +/- 2, x: 0.3, z: -1 +/- 0.1, Ixx: 1, Izz: 1, Ixz: 0, scale_inertia: true}"
+    found = uncertain(tmp_path, {**BENCHMARK, "rider": rider})
+    assert found.deviations == {"rider.m": 2, "rider.z": 0.1}
+    assert found.given["rider.inertia_mass"] == 10
+    with pytest.raises(InputError, match=r"rider\.inertia_mass: is a mass to compare with"):
+        uncertain(
+            tmp_path, {**BENCHMARK, "rider": rider.replace("scale_inertia: true", "inertia_mass: 10 +/- 2")}
+        )
