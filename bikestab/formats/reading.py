@@ -32,7 +32,7 @@ def read_rider(path: str | Path) -> Found:
     """The rider in a file of BicycleParameters, named ``rider.m`` and so on; its keys there are B's."""
     with expected("rider", path):
         found = equalities.parse(read_text(path), str(path))
-        values, notes = _settled(found.values, found.located)
+        values, notes = _settled(found.values, found.located, found.deviations)
         names = {key: _OF_RIDER[key] for key in values if key in _OF_RIDER}
         for key in values:
             if key not in names:
@@ -56,7 +56,7 @@ def _from_equalities(text: str, file: str) -> Found:
         except InputError as error:
             raise found.located(error) from None
         return Found(reduced.values, found.located, reduced.deviations, reduced.correlations)
-    values, notes = _settled(found.values, found.located)
+    values, notes = _settled(found.values, found.located, found.deviations)
     deviations = {key: sd for key, sd in found.deviations.items() if key in values}
     return Found(values, found.located, deviations, notes=tuple(notes))
 
@@ -96,7 +96,7 @@ def _of_mapping(data: Mapping[Any, Any], located: Located) -> Found:
             deviations |= inner
     except InputError as error:
         raise located(error) from None
-    values, notes = _settled(values, located)
+    values, notes = _settled(values, located, deviations)
     if not deviations:
         return Found(values, located, notes=tuple(notes))
     try:
@@ -119,7 +119,10 @@ def _uncertain(value: Any) -> bool:
     return isinstance(value, str) and any(sign in value for sign in ("+/-", "±", "+-"))
 
 
-def _settled(values: Mapping[Any, Any], located: Located) -> tuple[dict[Any, Any], list[str]]:
+def _settled(
+    values: Mapping[Any, Any], located: Located, deviations: Mapping[str, float]
+) -> tuple[dict[Any, Any], list[str]]:
+    """The parameters alone, and notes on what else there was."""
     try:
         kept, notes = without_extras(values)
     except InputError as error:
@@ -128,7 +131,11 @@ def _settled(values: Mapping[Any, Any], located: Located) -> tuple[dict[Any, Any
         raise located(InputError(f"has no parameter of a bicycle: {', '.join(map(str, values))}"))
     if principal.looks_like(kept):
         try:
-            return principal.converted(kept), [*notes, "from principal axes; its body P is the rider"]
+            found = principal.converted(kept)
         except InputError as error:
             raise located(error) from None
+        notes.append("from principal axes; its body P is the rider")
+        if lost := [key for key in deviations if key in kept and key not in found]:
+            notes.append(f"not carried to other axes, left out: the uncertainties of {', '.join(lost)}")
+        return found, notes
     return kept, notes

@@ -36,6 +36,13 @@ def test_the_packages_own_set(tmp_path):
     assert "not in the equations, left out: v" in found.notes[0]
 
 
+def test_uncertainties_that_are_lost_are_told(tmp_path):
+    values = dict(moore2019_browser_jason)
+    found = load(values | {key: f"{values[key]} +/- 0.001" for key in ("w", "kDaa", "mP")}, tmp_path)
+    assert found.deviations == {"w": 0.001}
+    assert found.notes[-1] == "not carried to other axes, left out: the uncertainties of kDaa, mP"
+
+
 @settings(deadline=None, max_examples=30, derandomize=True)
 @given(st.lists(st.floats(0.05, 1.0), min_size=len(PRINCIPAL), max_size=len(PRINCIPAL)))
 def test_any_set(tmp_path_factory, numbers):
