@@ -46,7 +46,8 @@ def test_colours_are_the_widths():
     assert values.filled(0) == pytest.approx(width, abs=1e-6)
     assert np.array_equal(np.ma.getmaskarray(values), width == 0)
     assert legend[:4] == ["V₂ above 30 m/s or unbounded", "V₁ [m/s]", "V₂ [m/s]", "no stable speed"]
-    assert legend[4:] == ["width-decay front", "widest interval", "lowest V₁", "fastest decay"]
+    assert legend[4] == "fork offset b = 0 (below: forwards)"
+    assert legend[5:] == ["width-decay front", "widest interval", "lowest V₁", "fastest decay"]
     assert (ax.get_xlim(), ax.get_ylim()) == ((0, 0.6), (0, 0.3))
 
 
