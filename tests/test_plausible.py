@@ -10,6 +10,8 @@ from bikestab.plausible import design_doubts
 from bikestab.presets import preset_names
 from tests.configs import GOOD, load
 
+pytestmark = pytest.mark.usefixtures("in_an_empty_folder")
+
 BENCHMARK = Bicycle.preset("meijaard2007")
 PAPER = Bicycle.preset("dikarev1981")
 SOUND = PAPER.replaced({"A2": 0.3, "B2": 0.3, "C2": 0.1, "lam": 0.3, "sigma": 0.05})

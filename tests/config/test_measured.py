@@ -10,6 +10,8 @@ from bikestab.config.expectations import outcomes
 from bikestab.config.file import config_schema
 from tests.configs import load, message
 
+pytestmark = pytest.mark.usefixtures("in_an_empty_folder")
+
 MEASURED = """\
 bicycle: meijaard2007
 grid:
