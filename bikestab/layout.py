@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from bikestab.errors import InputError
 from bikestab.fields import AXES, FIELDS
+from bikestab.kinds import KINDS, REASONS, UNBOUNDED
 from bikestab.routh import CONDITIONS
-from bikestab.speeds import KINDS, REASONS, UNBOUNDED
 
 TEXTS = (
     "title", "references", "bicycle", "bicycle_parameters", "warnings", "model", "config", "config_sha256",

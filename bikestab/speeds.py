@@ -18,20 +18,16 @@ from numpy.typing import NDArray
 from bikestab.certain import ascending
 from bikestab.critical import Critical, critical
 from bikestab.entries import Cells, cells_of
+from bikestab.kinds import CAPSIZE as CAPSIZE
+from bikestab.kinds import KINDS as KINDS
+from bikestab.kinds import NONE as NONE
+from bikestab.kinds import REASONS as REASONS
+from bikestab.kinds import REST as REST
+from bikestab.kinds import UNBOUNDED as UNBOUNDED
+from bikestab.kinds import WEAVE as WEAVE
 from bikestab.model import ExactTable, Floats
 from bikestab.rounding import VALUE
 
-KINDS = ("none", "weave", "capsize", "rest", "unbounded")  # value k of ``lower`` and ``upper``
-NONE, WEAVE, CAPSIZE, REST, UNBOUNDED = range(5)
-# Why it may be otherwise: what is within rounding of the inputs' products in twice double precision.
-REASONS = (
-    "",
-    "whether there is a capsize speed is within rounding",
-    "how many weave speeds there are is within rounding",
-    "the order of two critical speeds is within rounding",
-    "whether p1 … p4 are positive is within rounding",
-    "the interval is narrower than two neighbouring doubles",
-)
 _CAPSIZE_SPEED, _WEAVE_SPEEDS, _ORDER, _SIGNS, _WIDTH = range(1, 6)
 _EMPTY = (np.nan, np.nan, NONE, NONE, np.nan, np.nan, 0)  # what stands in Intervals behind a cell's last one
 

@@ -55,7 +55,7 @@ def test_table_of_model_py(monkeypatch, model):
     assert derived.same(letters_module.determinant(own), own.c**2 * (own.J1 * own.M22 - own.M12**2))
     monkeypatch.setattr(model_module, "letters_of", lambda *_: n)
     names = {AB[name]: value for name, value in coefficients(bicycle, 0, 0, model=model)._asdict().items()}
-    found = model_module._entries(n)
+    found = model_module.entries_of(n)
     for k, j in np.ndindex(5, 4):
         entry = determinant().coeff(s, k).coeff(V, j).subs({c: n.c, delta: n.delta}).subs(names)
         assert sp.expand(found.get((k, j), sp.Integer(0)) - entry) == 0, (k, j)

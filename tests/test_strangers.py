@@ -387,15 +387,18 @@ def test_an_error_that_cannot_go_through_the_pipe(error):
 
 
 def test_nothing_is_left_of_a_check_that_is_interrupted(monkeypatch):
+    children = []
+
     def interrupted(pid, options):
         monkeypatch.undo()
+        children.append(pid)
         raise KeyboardInterrupt
 
     monkeypatch.setattr(os, "waitpid", interrupted)
     with pytest.raises(KeyboardInterrupt):
         watched.watched(for_ever)
     with pytest.raises(ChildProcessError):
-        os.waitpid(-1, os.WNOHANG)
+        os.waitpid(children[0], os.WNOHANG)
 
 
 def test_opening_takes_no_descriptors(equal):

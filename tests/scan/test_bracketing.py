@@ -96,7 +96,7 @@ def test_close_to_a_fold_rounding_moves_what_scipy_finds():
 def test_a_change_of_sign_that_rounding_made_is_told_apart():
     """Next to a triple root the condition is nothing but rounding."""
     table = table_of(p0=np.poly([2.7, 2.7, 2.7])[::-1])
-    V = np.linspace(2.7 - 1e-6, 2.7 + 1e-6, 200)
+    V = np.linspace(2.7 - 1e-6, 2.7 + 1e-6, 2000)
     witness = Bracketing(V, 1)
     witness._look(table, V, dict.fromkeys(CONDITIONS, np.full((1, 1), 2.7)))
     found = witness.agreement()
