@@ -42,7 +42,8 @@ RULES = {
     "limits if it does so down to an optimum λ > 0 only; else, or if the widest interval of all is at the "
     "largest λ, to a tenth of the box's side, it does not hold",
     3: "holds if there are stable designs, and the widest interval and the fastest decay are found at one of "
-    "them; with limits if at different ones; does not hold without stable designs",
+    "them, to a tenth of the box's sides; with limits if at different ones; does not hold without stable "
+    "designs",
     4: "holds if no boundary moves markedly up to the strongest damper; with limits if none does up to the "
     "friction of bearings; else it does not hold",
 }

@@ -30,6 +30,7 @@ def readings_tables(s: Readings) -> Tables:
         "firm": listed(firm) or "none",
         "open": listed([key for key in s.counts if key not in firm]) or "none",
         "firm_forwards": listed(firm_forwards) or "none",
+        "open_forwards": listed([key for key in s.counts if key not in firm_forwards]) or "none",
         "nowhere": "; ".join(_named(row) for row in s.readings if row not in stable) or "none",
         "exceptions": "; ".join(_named(row) for row in exceptions) or "none",
         "exceptions_forwards": "; ".join(_named(row) for row in refuted) or "none",
