@@ -22,17 +22,22 @@ def import_matplotlib() -> None:
     if "matplotlib" in sys.modules or not spec or not spec.origin:
         return
     logger, backend = logging.getLogger("matplotlib"), os.environ.pop("MPLBACKEND", None)
-    level = logger.level
+    level, wanted, data = logger.level, backend, Path(spec.origin).parent / "mpl-data"
     try:
         logger.setLevel(logging.CRITICAL)
         with warnings.catch_warnings(action="ignore"):
-            with _within(Path(spec.origin).parent / "mpl-data"):
+            with _within(data):
                 import matplotlib
                 import matplotlib.font_manager  # which makes its list of fonts
             with suppress(Exception):  # whatever is wrong with them, pictures of one's own tell of it
-                matplotlib.rcParams.update(matplotlib.rc_params())
+                if Path(matplotlib.matplotlib_fname()).parent != data:
+                    users = dict(matplotlib.rc_params())
+                    theirs = users.pop("backend")
+                    wanted = wanted or theirs
+                    matplotlib.rcParams.update(users)
             with suppress(ValueError):
-                matplotlib.rcParams["backend"] = backend or matplotlib.rcParams._get("backend")
+                if isinstance(wanted, str):  # to look for one imports pyplot
+                    matplotlib.rcParams["backend"] = wanted
     finally:
         logger.setLevel(level)
         if backend is not None:

@@ -119,8 +119,9 @@ def _edges(ax: Axes, section: Section, x: Floats, y: Floats, word: str = "bounda
     """Draw the boundary curves; what the legend says of them."""
     handles = []
     X, Y = np.linspace(x[0], x[-1], _SAMPLES), np.linspace(y[0], y[-1], _SAMPLES)
-    for name, (label, style) in EDGES.items():
-        if curves := edge_curves(section, name, X, Y):
+    for name, curves in edge_curves(section, list(EDGES), X, Y).items():
+        label, style = EDGES[name]
+        if curves:
             draw_on_white(ax, curves, lw=1.8, color="black", ls=style)
             handles.append(entry(f"{label} {word}", color="black", ls=style))
     return handles

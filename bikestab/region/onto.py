@@ -61,21 +61,3 @@ def across(function: Function, points: Floats, along: Floats, most: float, round
             move = 2 * h * here / (above - below)
         points = points - np.where(np.abs(move) < most, move, 0.0) * aside
     return points
-
-
-def downhill(function: Function, points: Floats, units: tuple[float, float]) -> Floats:
-    """Points (2, n) near a curve moved onto it along the gradient, where x and y have these ``units``.
-
-    A step is one unit at most.
-    """
-    size = np.array(units)[:, np.newaxis]
-    h = 1e-4 * size
-    u, v = (h * np.array([[1.0], [0.0]]), h * np.array([[0.0], [1.0]]))
-    for _ in range(ROUNDS - 1):
-        here = function(points)
-        slope = np.array([function(points + step) - function(points - step) for step in (u, v)]) / 2e-4
-        with np.errstate(divide="ignore", invalid="ignore"):
-            move = here / (slope**2).sum(axis=0)
-        move = np.where(np.abs(move) * np.hypot(*slope) < 1, move, 0)
-        points = points - move * slope * size
-    return points

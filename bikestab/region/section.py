@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -10,8 +11,12 @@ from contourpy import contour_generator
 
 from bikestab.family import Family
 from bikestab.model import Floats
-from bikestab.region.onto import downhill
-from bikestab.routh import condition_polynomials, conditions
+from bikestab.rounding import POLYNOMIAL
+from bikestab.routh import CONDITIONS, conditions, hurwitz3_of
+from bikestab.twofold import Double
+
+_ROUNDS = 3  # of Newton's method: from a grid's step to rounding
+_SLOPE = 1e-4  # of a step: over which slopes are taken
 
 
 @dataclass(frozen=True)
@@ -29,47 +34,90 @@ class Section:
         return x, y
 
     def table_and_speed(self, x: Floats, y: Floats) -> tuple[Floats, Floats]:
-        """Characteristic table and V at points of the plane; x and y broadcast together."""
+        """Characteristic table (in double precision) and V at points; x and y broadcast together."""
         at: dict[str, Floats] = {
             self.fixed: np.array(self.value),
             **dict(zip(self.axes, (x, y), strict=True)),
         }
-        table = self.family.table(at[self.family.x], at[self.family.y])
+        table = self.family.quick_table(at[self.family.x], at[self.family.y])
         shape = table.shape[2:]
         return table.reshape(5, 4, *(1,) * (at["V"].ndim - len(shape)), *shape), at["V"]
 
 
-def edge_curves(section: Section, name: str, X: Floats, Y: Floats) -> list[tuple[Floats, Floats]]:
-    """The parts (x, y) of the curve on which a condition is zero that are edges of stability.
+def edge_curves(
+    section: Section, names: Sequence[str], X: Floats, Y: Floats
+) -> dict[str, list[tuple[Floats, Floats]]]:
+    """Of each condition the parts (x, y) of the curves on which it is zero that are edges of stability.
 
     X and Y are the samples (n,) among which curves are looked for; the points are exact.
     """
-    parts: list[tuple[Floats, Floats]] = []
-    for x, y in zero_curves(section, name, X, Y):
-        others = conditions(*section.table_and_speed(x, y))._asdict()
-        edge = np.all([v > 0 for key, v in others.items() if key != name], axis=0)
-        cuts = np.flatnonzero(np.diff(edge)) + 1
-        stretches = np.split(np.arange(len(x)), cuts)
-        parts.extend((x[part], y[part]) for part in stretches if edge[part[0]] and len(part) > 1)
+    parts: dict[str, list[tuple[Floats, Floats]]] = {}
+    for name, curves in zero_curves(section, names, X, Y).items():
+        parts[name] = []
+        for x, y in curves:
+            others = conditions(*section.table_and_speed(x, y))._asdict()
+            edge = np.all([v > 0 for key, v in others.items() if key != name], axis=0)
+            cuts = np.flatnonzero(np.diff(edge)) + 1
+            stretches = np.split(np.arange(len(x)), cuts)
+            parts[name].extend((x[part], y[part]) for part in stretches if edge[part[0]] and len(part) > 1)
     return parts
 
 
-def zero_curves(section: Section, name: str, X: Floats, Y: Floats) -> list[tuple[Floats, Floats]]:
-    """The whole curves (x, y) on which a condition is zero, edges or not."""
+def zero_curves(
+    section: Section, names: Sequence[str], X: Floats, Y: Floats
+) -> dict[str, list[tuple[Floats, Floats]]]:
+    """Of each condition the whole curves (x, y) on which it is zero, edges or not."""
+    samples = _values(section, names, X[np.newaxis, :], Y[:, np.newaxis])
+    lines = [cast("list[Floats]", contour_generator(X, Y, z).lines(0.0)) for z in samples]
+    which = np.repeat(np.arange(len(names)), [sum(map(len, of)) for of in lines])
+    every = [line for of in lines for line in of]
+    if not every:
+        return {name: [] for name in names}
 
-    def value(x: Floats, y: Floats) -> Floats:
-        table, V = section.table_and_speed(x, y)
-        polynomial = condition_polynomials(table)[name]
-        used = np.flatnonzero(polynomial.any(axis=tuple(range(1, polynomial.ndim))))
-        if not len(used):
-            return np.ones(np.broadcast_shapes(x.shape, y.shape))
-        result = polynomial[used[-1]]
-        for j in range(used[-1] - 1, used[0] - 1, -1):  # without the factor V^m, which is no boundary
-            result = result * V + polynomial[j]
-        return np.broadcast_to(result, np.broadcast_shapes(x.shape, y.shape))
+    def value(points: Floats) -> Floats:
+        return np.choose(which, _values(section, names, *points))
 
-    samples = value(X[np.newaxis, :], Y[:, np.newaxis])
-    lines = cast("list[Floats]", contour_generator(X, Y, samples).lines(0.0))
-    steps = (X[1] - X[0], Y[1] - Y[0])
-    moved = (downhill(lambda points: value(*points), line.T, steps) for line in lines)
-    return [(x, y) for x, y in moved]
+    moved = _onto(value, np.concatenate(every).T, (X[1] - X[0], Y[1] - Y[0]))
+    curves = iter(np.split(moved, np.cumsum([len(line) for line in every])[:-1], axis=1))
+    return {name: [tuple(next(curves)) for _ in of] for name, of in zip(names, lines, strict=True)}
+
+
+def _values(section: Section, names: Sequence[str], x: Floats, y: Floats) -> list[Floats]:
+    """The conditions at points of the plane, without their factors V^m, which are no boundary."""
+    table, V = section.table_and_speed(x, y)
+    rows = [[Double(a, np.abs(a)) if a.any() else None for a in row] for row in table]
+    shape = np.broadcast_shapes(x.shape, y.shape)
+    found = []
+    for name in names:
+        polynomial = hurwitz3_of(rows) if name == "hurwitz3" else rows[CONDITIONS.index(name)]
+        coefficients = [0.0 if a is None else _settled(a) for a in polynomial]
+        used = [j for j, a in enumerate(coefficients) if np.any(a)]
+        result: Floats = np.ones(())
+        if used:
+            result = np.asarray(coefficients[used[-1]])
+            for j in range(used[-1] - 1, used[0] - 1, -1):
+                result = result * V + coefficients[j]
+        found.append(np.broadcast_to(result, shape))
+    return found
+
+
+def _settled(a: Double) -> Floats:
+    """Zero where no more than rounding is left."""
+    return cast("Floats", np.where(np.abs(a.value) <= POLYNOMIAL * a.size, 0.0, a.value))
+
+
+def _onto(function: Callable[[Floats], Floats], points: Floats, units: tuple[float, float]) -> Floats:
+    """Points (2, n) near a curve moved onto it along the gradient, where x and y have these ``units``.
+
+    A step is one unit at most.
+    """
+    size = np.array(units)[:, np.newaxis]
+    aside = np.array([[[0.0], [1.0], [0.0]], [[0.0], [0.0], [1.0]]]) * _SLOPE * size[:, np.newaxis]
+    for _ in range(_ROUNDS):
+        here, *beside = function(points[:, np.newaxis] + aside)
+        slope = (np.array(beside) - here) / _SLOPE
+        with np.errstate(divide="ignore", invalid="ignore"):
+            move = here / (slope**2).sum(axis=0)
+        move = np.where(np.abs(move) * np.hypot(*slope) < 1, move, 0)
+        points = points - move * slope * size
+    return points

@@ -25,7 +25,7 @@ def test_ticks_are_on_the_stable_side(fixed, name):
     section = Section(Family(Bicycle.preset("dikarev1981")), fixed, value)
     ends = {"lam": LAM, "sigma": SIGMA, "V": V}
     width, height = (ends[axis][1] for axis in section.axes)
-    for x, y in edge_curves(section, name, np.linspace(0, width, 161), np.linspace(0, height, 161)):
+    for x, y in edge_curves(section, [name], np.linspace(0, width, 161), np.linspace(0, height, 161))[name]:
         for points in ((x, y), (x[::-1], y[::-1])):
             a, b = oriented(section, CONDITIONS, *points)
             along = np.diff(a) / width, np.diff(b) / height

@@ -54,7 +54,7 @@ def _family(ax: Axes, bicycle: Bicycle, fixed: Axis, values: tuple[float, ...], 
     ends: list[tuple[float, float, str, str]] = []
     for value, colour in zip(values, _COLOURS, strict=True):
         section = Section(Family(bicycle), fixed, value)
-        drawn = {name: edge_curves(section, name, X, Y) for name in EDGES}
+        drawn = edge_curves(section, list(EDGES), X, Y)
         for name, (_, style) in EDGES.items():
             for x, y in drawn[name]:
                 draw_ticked(ax, section, CONDITIONS, x, y, color=colour, ls=style)

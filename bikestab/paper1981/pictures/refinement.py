@@ -52,8 +52,9 @@ def _conditions(ax: Axes, section: Section, samples: int) -> None:
     inside = np.all([value > 0 for value in conditions(table, speed)], axis=0)
     if inside.any():
         ax.contourf(X, Y, inside, levels=[0.5, 1.5], colors=[_STABLE])
+    curves = zero_curves(section, list(_SURFACES), X, Y)
     for name, (colour, style, _) in _SURFACES.items():
-        for x, y in zero_curves(section, name, X, Y):
+        for x, y in curves[name]:
             draw_ticked(ax, section, [name], x, y, color=colour, ls=style)
     ax.set(xlim=SIGMA, ylim=(0, _TOP))
     label_axes(ax, "sigma", "V", section.family.bicycle.c)
