@@ -19,7 +19,7 @@ from bikestab.model import Floats
 EDGES: dict[str, tuple[str, Any]] = {"hurwitz3": ("weave", "-"), "p0": ("capsize", (0, (5, 1.5)))}
 
 
-STRAIGHT = (0, (7, 2, 1, 2))  # where the fork is straight
+STRAIGHT: dict[str, Any] = {"color": "0.25", "lw": 1.2, "ls": (0, (7, 2, 1, 2))}  # where the fork is straight
 
 
 def draw_on_white(ax: Axes, curves: Iterable[Sequence[Floats]], *, lw: float, **style: Any) -> None:
@@ -32,18 +32,29 @@ def draw_on_white(ax: Axes, curves: Iterable[Sequence[Floats]], *, lw: float, **
 
 
 def straight_fork(ax: Axes, bicycle: Bicycle) -> list[Line2D]:
-    """The line in axes of λ and σ on which the fork offset b is zero; what the legend says of it, if drawn.
-
-    Above it forks are bent backwards, below it forwards: σ = R2 tan λ / c.
-    """
-    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
-    lam = np.linspace(left, right, 241)
-    sigma = trail_from(lam, 0.0, bicycle.R2) / bicycle.c
-    shown = (low <= sigma) & (sigma <= high)
-    if not shown.any():
+    """The line in axes of λ and σ where the fork offset b is zero; what the legend says of it, if drawn."""
+    lam, sigma = straight_designs(bicycle, ax.get_xlim(), ax.get_ylim())
+    if np.isnan(sigma).all():
         return []
-    draw_on_white(ax, [(lam, np.where(shown, sigma, np.nan))], lw=1.2, color="0.25", ls=STRAIGHT)
-    return [entry("fork offset b = 0 (below: forwards)", lw=1.2, color="0.25", ls=STRAIGHT)]
+    draw_on_white(ax, [(lam, sigma)], **STRAIGHT)
+    return [straight_entry()]
+
+
+def straight_designs(
+    bicycle: Bicycle, lam: tuple[float, float], sigma: tuple[float, float]
+) -> tuple[Floats, Floats]:
+    """λ and σ of the designs in a box whose fork offset b is zero: σ = R2 tan λ / c; NaN outside.
+
+    Above this line forks are bent backwards, below it forwards.
+    """
+    x = np.linspace(*lam, 241)
+    y = trail_from(x, 0.0, bicycle.R2) / bicycle.c
+    return x, np.where((sigma[0] <= y) & (y <= sigma[1]), y, np.nan)
+
+
+def straight_entry(forwards: str = "below") -> Line2D:
+    """The legend's entry for this line, beside which forks are bent ``forwards``."""
+    return entry(f"fork offset b = 0 ({forwards}: forwards)", **STRAIGHT)
 
 
 def entry(label: str, *, lw: float = 1.8, **style: Any) -> Line2D:

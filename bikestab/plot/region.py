@@ -19,7 +19,7 @@ from bikestab.fields import AXES
 from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, remarks
 from bikestab.plot.headings import set_title, short
-from bikestab.plot.lines import legend_below
+from bikestab.plot.lines import STRAIGHT, legend_below, straight_designs, straight_entry
 from bikestab.plot.settings import own_settings
 from bikestab.region.mesh import Mesh, region_mesh
 from bikestab.region.triangulation import sides_of
@@ -41,9 +41,14 @@ def draw_region(volume: Volume) -> Figure:
     mesh = region_mesh(family, box[0], box[1], box[2], cells=_CELLS)
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
-    if handles := draw_mesh(ax, mesh, box):
-        legend_below(figure, handles, ncols=2, handlelength=2)
     bicycle = volume.bicycle
+    lam, sigma = straight_designs(bicycle, box[0], box[1])
+    ax.plot(lam, sigma, box[2][0], zorder=0, **STRAIGHT)  # on the floor, under the surface
+    handles = draw_mesh(ax, mesh, box)
+    if not np.isnan(sigma).all():
+        handles.append(straight_entry("smaller σ"))
+    if handles:
+        legend_below(figure, handles, ncols=2, handlelength=2)
     what = f"{short(bicycle.name)}: stable region{remarks(bicycle, volume.model)}"
     set_title(ax, volume.title, what)
     return figure

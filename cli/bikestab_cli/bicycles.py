@@ -6,15 +6,8 @@ import textwrap
 from pathlib import Path
 
 import click
-from bikestab_cli.options import (
-    FILE,
-    NAME,
-    check_files,
-    json_option,
-    tilt_option,
-    told_as_options,
-    trail_option,
-)
+from bikestab_cli.chosen import Given, design_chosen, design_options
+from bikestab_cli.options import FILE, NAME, check_files, json_option
 from bikestab_cli.output import print_json, tell_file
 
 
@@ -24,16 +17,13 @@ from bikestab_cli.output import print_json, tell_file
     "-o", "--output", type=FILE, metavar="FILE",
     help="Draw NAME, or the bicycle in a file, from its side: PNG, PDF or SVG.",
 )  # fmt: skip
-@tilt_option
-@trail_option
+@design_options()
 @json_option
-def command(
-    name: str | None, output: str | None, lam: float | None, sigma: float | None, as_json: bool
-) -> None:
+def command(name: str | None, output: str | None, given: Given, as_json: bool) -> None:
     """List the bicycles that come with bikestab.
 
     With NAME, print the YAML file of that one. With -o, draw it to scale with the symbols of the paper, at
-    its own tilt and trail where --lam and --sigma give no others.
+    its own tilt and trail where no others are given.
 
     Such a file, changed to taste, serves as --bicycle FILE and as 'bicycle: FILE' in a config.
 
@@ -43,17 +33,17 @@ def command(
       bikestab bicycles meijaard2007 > mine.yaml
       bikestab bicycles mine.yaml -o side.png
       bikestab bicycles dikarev1981 --lam 0.2 --sigma 0.08 -o side.png
+      bikestab bicycles mine.yaml --head-angle 71deg --offset 45mm -o side.png
     """
     from bikestab.bicycle import Bicycle
     from bikestab.presets import preset_names, preset_text
 
     if output:
-        _draw(name, output, lam, sigma)
+        _draw(name, output, given)
         return
-    if lam is not None or sigma is not None:
-        raise click.UsageError(
-            "--lam and --sigma are for a picture: give -o FILE", click.get_current_context()
-        )
+    if given:
+        option = f"--{next(iter(given)).replace('_', '-')}"
+        raise click.UsageError(f"{option} is for a picture: give -o FILE", click.get_current_context())
     chosen = [Bicycle.preset(n) for n in ([name] if name else preset_names())]
     if as_json:
         print_json(
@@ -77,8 +67,7 @@ def command(
             click.echo(textwrap.fill(f"warning: {text}", 96, initial_indent="  ", subsequent_indent="    "))
 
 
-def _draw(name: str | None, output: str, lam: float | None, sigma: float | None) -> None:
-    from bikestab.arguments import design_of
+def _draw(name: str | None, output: str, given: Given) -> None:
     from bikestab.bicycle import Bicycle
     from bikestab.plot.files import save
     from bikestab.plot.side import draw_side
@@ -87,7 +76,5 @@ def _draw(name: str | None, output: str, lam: float | None, sigma: float | None)
         raise click.UsageError("a picture is of one bicycle: give its NAME", click.get_current_context())
     check_files(output)
     bicycle = Bicycle.load(name)
-    with told_as_options():
-        design = design_of(bicycle, lam, sigma)
-    save(draw_side(bicycle, *(float(value) for value in design)), Path(output))
+    save(draw_side(bicycle, *design_chosen(bicycle, given)), Path(output))
     tell_file(output)

@@ -7,14 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from bikestab_cli.chosen import Given, box_chosen, design_options
 from bikestab_cli.options import (
-    ANGLE_ENDS,
     DEFAULT_BICYCLE,
     FILE,
     NAME,
     SPEED_ENDS,
-    TRAIL_ENDS,
     Ends,
+    Quantity,
     check_files,
     json_option,
     load_bicycle,
@@ -26,6 +26,7 @@ from bikestab_cli.parameters import parameter
 from bikestab_cli.progress import progress
 
 from bikestab.errors import InputError
+from bikestab.units import DAMPING
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -38,8 +39,7 @@ LONG = 20  # blocks; their check is announced
 
 @click.command("certify")
 @click.argument("config", type=NAME, required=False, metavar="[CONFIG]")
-@click.option("--lam", type=ANGLE_ENDS, metavar="A:B", help="Tilt of the steering axis, from A to B.")
-@click.option("--sigma", type=TRAIL_ENDS, metavar="A:B", help="Trail divided by the wheelbase, from A to B.")
+@design_options("two ends")
 @click.option("--V", "speed", type=SPEED_ENDS, metavar="A:B", help="Speed, from A to B.")
 @click.option(
     "--bicycle",
@@ -48,7 +48,11 @@ LONG = 20  # blocks; their check is announced
     metavar="NAME|FILE",
     help=f"A bicycle that comes with bikestab, or a file.  [default: {DEFAULT_BICYCLE}, or the config's]",
 )
-@click.option("--delta", type=float, help="Steering damping δ [kg m²/s], instead of the bicycle's own.")
+@click.option(
+    "--delta",
+    type=Quantity("number", DAMPING),
+    help="Steering damping δ [kg m²/s], instead of the bicycle's own.",
+)
 @click.option(
     "--model", type=click.Choice(["refined", "unrefined"]), help="The equations.  [default: refined]"
 )
@@ -72,15 +76,16 @@ LONG = 20  # blocks; their check is announced
 @click.option("-q", "--quiet", is_flag=True, help="No progress.")
 @json_option
 def command(
-    config: str | None, lam: Ends | None, sigma: Ends | None, speed: Ends | None, bicycle_name: str | None,
-    delta: float | None, model: Model | None, tolerance: tuple[str, ...], cells: int, certificate: str | None,
+    config: str | None, given: Given, speed: Ends | None, bicycle_name: str | None, delta: float | None,
+    model: Model | None, tolerance: tuple[str, ...], cells: int, certificate: str | None,
     verify: str | None, quiet: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Prove a box of designs and speeds stable or unstable.
 
     A scan tells of the points of a grid; this tells of every point between them. The box of a config, or
-    the one between --lam, --sigma and --V, is cut into cells, and each is proved to be stable throughout, to
-    be unstable throughout, or stays undecided, as do those with the boundary in them. The numbers are the
+    the one between two tilts (or head angles), two trails and two speeds, is cut into cells, and each is
+    proved to be stable throughout, to be unstable throughout, or stays undecided, as do those with the
+    boundary in them. The numbers are the
     exact doubles that are given; all rounding is bounded. With --tolerance a cell is proved for all
     machines in the range.
 
@@ -92,6 +97,7 @@ def command(
       bikestab certify configs/quick.yaml
       bikestab certify --bicycle meijaard2007 --lam 17deg:19deg --sigma 0.07:0.085 --V 4.6:5.6
       bikestab certify --bicycle meijaard2007 --lam 0.3 --sigma 0.08 --V 4.6:5 --tolerance mB=85+-2
+      bikestab certify --bicycle meijaard2007 --head-angle 72deg --offset 30mm:35mm --V 4.6:5.6
       bikestab certify --lam 0.2:0.21 --sigma 0.08 --V 4.1:4.6 --cells 4 -o proof.json
       bikestab certify --verify proof.json
     """
@@ -103,18 +109,14 @@ def command(
 
     check_files(certificate)
     if config:
-        given = {"--lam": lam, "--sigma": sigma, "--V": speed, "--bicycle": bicycle_name, "--delta": delta,
-                 "--model": model}  # fmt: skip
-        if twice := [name for name, value in given.items() if value is not None]:
+        others = {"V": speed, "bicycle": bicycle_name, "delta": delta, "model": model}
+        if twice := [f"--{k.replace('_', '-')}" for k, v in {**given, **others}.items() if v is not None]:
             raise click.UsageError(f"{config} says what {twice[0]} says", click.get_current_context())
         bicycle, model, ends = _of_config(config)
     else:
-        if missing := [n for n, v in (("--lam", lam), ("--sigma", sigma), ("--V", speed)) if v is None]:
-            problem = f"a box needs a CONFIG, or --lam, --sigma and --V: {missing[0]} is missing"
-            raise click.UsageError(problem, click.get_current_context())
         bicycle = load_bicycle(bicycle_name or DEFAULT_BICYCLE, delta)
-        ends = {"lam": lam, "sigma": sigma, "V": speed}
-    edges = {name: _edges(name, pair, cells) for name, pair in ends.items() if pair}
+        ends = _of_options(bicycle, given, speed)
+    edges = {name: _edges(name, pair, cells) for name, pair in ends.items()}
     with told_as_options(), progress("certify", quiet) as show:
         show(0, 10**6)
         proof = prove(
@@ -145,7 +147,16 @@ def _edges(name: str, ends: Ends, cells: int) -> Any:
     return np.linspace(start, stop, cells + 1) if stop > start else np.array([start, stop])
 
 
-def _of_config(name: str) -> tuple[Bicycle, Model, dict[str, Ends | None]]:
+def _of_options(bicycle: Bicycle, given: Given, speed: Ends | None) -> dict[str, Ends]:
+    box = box_chosen(bicycle, given) | ({"V": speed} if speed else {})
+    for axis in ("lam", "sigma", "V"):
+        if axis not in box:
+            problem = f"a box needs a CONFIG, or --lam, --sigma and --V: --{axis} is missing"
+            raise click.UsageError(problem, click.get_current_context())
+    return box
+
+
+def _of_config(name: str) -> tuple[Bicycle, Model, dict[str, Ends]]:
     from bikestab.config.file import load_config
 
     with of_file(name):

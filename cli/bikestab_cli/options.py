@@ -142,12 +142,6 @@ sd_option = click.option(
     help="A parameter's standard deviation, e.g. --sd mB=1.5 --sd lam=0.5deg; file: all that the file gives.",
 )  # fmt: skip
 
-tilt_option = click.option(
-    "--lam", type=ANGLE_VALUE, metavar="ANGLE", help="Tilt of the steering axis: 0.1 or 18deg."
-)
-trail_option = click.option(
-    "--sigma", type=TRAIL_VALUE, metavar="NUMBER", help="Trail divided by the wheelbase: 0.08."
-)
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 
 

@@ -7,12 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from bikestab_cli.chosen import Given, design_chosen, design_options
 from bikestab_cli.options import (
-    ANGLE_VALUE,
     DEFAULT_BICYCLE,
     FILE,
     NAME,
-    TRAIL_VALUE,
     check_files,
     equation_options,
     json_option,
@@ -28,8 +27,7 @@ if TYPE_CHECKING:
 
 
 @click.command("sensitivity")
-@click.option("--lam", type=ANGLE_VALUE, metavar="ANGLE", help="Tilt of the steering axis: 0.1 or 18deg.")
-@click.option("--sigma", type=TRAIL_VALUE, metavar="NUMBER", help="Trail divided by the wheelbase: 0.08.")
+@design_options()
 @click.option(
     "--hold", type=click.Choice(["trail", "offset", "sigma"]),
     help="What stays where tilt, wheelbase or front radius vary.  [default: the trail of the 25 parameters, "
@@ -46,8 +44,7 @@ if TYPE_CHECKING:
 @click.option("--csv", "csv_file", type=FILE, metavar="FILE", help="Write all rows at full precision.")
 @json_option
 def command(
-    lam: float | None,
-    sigma: float | None,
+    given: Given,
     hold: Hold | None,
     bicycle_names: tuple[str, ...],
     model: Model,
@@ -77,6 +74,7 @@ def command(
       bikestab sensitivity --bicycle meijaard2007
       bikestab sensitivity --bicycle meijaard2007 --hold offset --csv benchmark.csv
       bikestab sensitivity --lam 0.2 --sigma 0.08 --json
+      bikestab sensitivity --bicycle meijaard2007 --head-angle 71deg --trail 55mm
       bikestab sensitivity --bicycle meijaard2007 -o tornado.png
       bikestab sensitivity --bicycle meijaard2007 --bicycle sharp1971
       bikestab sensitivity --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
@@ -96,7 +94,10 @@ def command(
     ):  # c is the trail in one, the wheelbase in the other
         bicycles = [two_parts(bicycle) for bicycle in bicycles]
     with told_as_options():
-        found = [sensitivity(bicycle, lam, sigma, hold=hold, model=model) for bicycle in bicycles]
+        found = [
+            sensitivity(bicycle, *design_chosen(bicycle, given), hold=hold, model=model)
+            for bicycle in bicycles
+        ]
     with told_as_options():
         spreads = [own_spread(each, of_file=True, given=deviations[1]) for each in found]
     records = [

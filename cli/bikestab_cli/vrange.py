@@ -21,7 +21,7 @@ MOST_SPREADS = 100  # designs at once
 
 
 @click.command("vrange")
-@design_options(ranges=True)
+@design_options("a range")
 @several_machines
 @sd_option
 @json_option

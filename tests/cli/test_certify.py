@@ -1,6 +1,7 @@
 """bikestab certify: its verdicts, its JSON and its mistakes."""
 
 import json
+import math
 
 import pytest
 
@@ -26,6 +27,35 @@ def test_verdicts(bikestab, speeds, verdict):
 
 
 @pytest.mark.parametrize(
+    ("design", "same"),
+    [
+        (["--head-angle", "71deg:73deg"], ["--lam", "17deg:19deg"]),
+        (["--trail", "71.4mm:86.7mm"], ["--sigma", "0.07:0.085"]),
+    ],
+)
+def test_a_box_of_head_angles_and_trails(bikestab, design, same):
+    """Both ways of typing the box give the same one; the angle's complement is right to the last bit."""
+    other = [("--sigma", "0.08"), ("--lam", "18deg")][same[0] == "--sigma"]
+    found = []
+    for typed in (design, same):
+        options = [*typed, *other, "--V", "4.7:5.5", "--cells", "2", "--json"]
+        found.append(json.loads(bikestab("certify", "--bicycle", "meijaard2007", *options)[1]))
+    for axis, ends in found[0]["box"].items():
+        assert ends == pytest.approx(found[1]["box"][axis], rel=1e-15)
+    assert found[0]["verdict"] == found[1]["verdict"] == "stable"
+
+
+def test_a_box_of_fork_offsets(bikestab):
+    """At one tilt: b = R2 sin λ − σ w cos λ, with the benchmark's rF = 0.35 m and w = 1.02 m."""
+    options = ["--head-angle", "72deg", "--offset", "30mm:35mm", "--V", "4.8:5.2", "--cells", "2", "--json"]
+    box = json.loads(bikestab("certify", "--bicycle", "meijaard2007", *options)[1])["box"]
+    lam = math.radians(18)
+    trails = sorted((0.35 * math.sin(lam) - b) / math.cos(lam) for b in (0.03, 0.035))
+    assert box["lam"] == pytest.approx([lam, lam], rel=1e-15)
+    assert box["sigma"] == pytest.approx([trail / 1.02 for trail in trails], rel=1e-14)
+
+
+@pytest.mark.parametrize(
     ("options", "words"),
     [
         ([], "a box needs a CONFIG"),
@@ -39,6 +69,11 @@ def test_verdicts(bikestab, speeds, verdict):
         (["--verify", "nowhere.json"], "nowhere.json"),
         (["nowhere.yaml"], "nowhere.yaml"),
         (["nowhere.yaml", "--lam", "1"], "says what --lam says"),
+        (["nowhere.yaml", "--head-angle", "71deg"], "says what --head-angle says"),
+        (["--head-angle", "74deg:71deg", "--trail", "0.1", "--V", "1:2"], "--head-angle: 1.29154:1.239"),
+        (["--lam", "0.1:0.2", "--offset", "0.03", "--V", "1:2"], "no box of tilts and trails"),
+        (["--lam", "0.1", "--trail", "0.1", "--offset", "0.03", "--V", "1:2"], "give two of"),
+        (["--offset", "0.03", "--V", "1:2"], "--lam is missing"),
     ],
 )
 def test_mistakes(bikestab, options, words):

@@ -412,3 +412,8 @@ def test_a_side_view(bikestab, tmp_path):
     assert bikestab("bicycles", "dikarev1981", "-o", str(tmp_path / "no.png"))[0] == 2  # no design of its own
     assert not (tmp_path / "no.png").exists()
     assert bikestab("bicycles", "meijaard2007", "--lam", "0.2")[0] == 2
+    built = ["--head-angle", "71deg", "--trail", "55mm", "-o", str(tmp_path / "built.svg")]
+    assert bikestab("bicycles", "dikarev1981", *built)[0] == 0
+    title = "λ = 0.3316 rad (head angle 71.00°), σ = 0.05288"  # 55 mm of 1.04 m
+    assert title in (tmp_path / "built.svg").read_text("utf-8")
+    mistake(bikestab("bicycles", "meijaard2007", "--offset", "45mm"), "--offset is for a picture: give -o")

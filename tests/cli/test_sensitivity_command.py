@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 from functools import partial
 from pathlib import Path
 
@@ -42,6 +43,16 @@ def test_json_and_csv_have_full_precision(told):
         n: x[0] for n, x in found.dV2.items()
     }
     assert record["hold"] == "offset"
+
+
+def test_head_angle_and_trail_choose_the_design(told):
+    code, out, _ = told("--bicycle", "meijaard2007", "--head-angle", "71deg", "--offset", "45mm", "--json")
+    assert code == 0
+    (record,) = json.loads(out)["results"]
+    lam = math.radians(19)
+    assert record["lam"] == pytest.approx(lam, rel=1e-15)
+    assert record["sigma"] == pytest.approx((0.35 * math.sin(lam) - 0.045) / math.cos(lam) / 1.02, rel=1e-14)
+    assert told("--head-angle", "71deg", "--lam", "0.2", "--sigma", "0.08")[0] == 2
 
 
 def test_every_interval_has_its_table(told):

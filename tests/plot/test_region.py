@@ -5,6 +5,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+from bikestab.bicycle import Bicycle
 from bikestab.config.file import load_config
 from bikestab.plot.region import SHEETS, draw_region
 from bikestab.scan.run import run_scan
@@ -55,6 +56,19 @@ def test_axes_are_the_volumes_box(drawn):
     assert "λ [rad]" in ax.get_xlabel()
     assert "[m/s]" in ax.get_zlabel()
     assert ax.get_title().startswith("a box\nmeijaard2007")
+
+
+def test_forks_are_straight_on_a_line_of_the_floor(drawn):
+    """There R2 sin λ − σ c cos λ, which is b in the paper, is zero."""
+    figure = drawn()
+    (line,) = (each for each in figure.axes[0].lines if each.get_linestyle() not in ("None", "-"))
+    lam, sigma, V = (np.asarray(values) for values in line.get_data_3d())
+    bicycle, on = Bicycle.preset("dikarev1981"), ~np.isnan(sigma)
+    offset = bicycle.R2 * np.sin(lam) - sigma * bicycle.c * np.cos(lam)
+    assert on.sum() > 50
+    assert offset[on] == pytest.approx(0, abs=1e-15)
+    assert set(V) == {0.0}
+    assert "fork offset b = 0 (smaller σ: forwards)" in words(figure)
 
 
 def test_a_vertical_wall(drawn):
