@@ -95,36 +95,42 @@ def zeros_of(polynomial: Polynomial, number: int) -> Zeros:
     x, radius, simple = _polished(c, plain, start)
     sure = sure.copy()
     sure[cell[~simple]] = False
-    zeros = collected(cell, np.array([x.value, x.rest, radius]), number)
-    for i in range(1, len(zeros.V)):
-        gap = (zeros.V[i] - zeros.V[i - 1]) + (zeros.rest[i] - zeros.rest[i - 1])
-        sure &= ~(gap <= zeros.radius[i] + zeros.radius[i - 1])
-    return zeros._replace(sure=sure)
+    V, rest, radius = collected(cell, np.array([x.value, x.rest, radius]), number)
+    for i in range(1, len(V)):
+        gap = (V[i] - V[i - 1]) + (rest[i] - rest[i - 1])
+        sure &= ~(gap <= radius[i] + radius[i - 1])
+    return Zeros(V, rest, radius, sure)
 
 
-def collected(cell: NDArray[np.intp], found: Floats, number: int) -> Zeros:
-    """Zeros of ``number`` cells, from V, rest and radius (3, root) of each and the cells that they are in."""
+def collected(cell: NDArray[np.intp], found: Floats, number: int) -> Floats:
+    """Rows (row, root) of zeros and of what belongs to them, by their cells: (row, rank, cell).
+
+    The zeros, in the first row, and then those in the second one ascend; NaN behind a cell's last.
+    """
     count = np.bincount(cell, minlength=number)
     order = np.argsort(cell.astype(np.uint16 if number < 1 << 16 else np.intp), kind="stable")
     cell = cell[order]
     nth = np.arange(len(cell)) - (np.cumsum(count) - count)[cell]
-    out = np.full((3, int(count.max(initial=0)), number), np.nan)
+    out = np.full((len(found), int(count.max(initial=0)), number), np.nan)
     out[:, nth, cell] = found[:, order]
     ascending(*out)
-    return Zeros(out[0], out[1], out[2], np.ones(number, bool))
+    return out
 
 
-def ascending(V: Floats, rest: Floats, *others: NDArray[Any]) -> None:
-    """Put the few rows (root, cell) of V + rest, and others with them, into their order in place; NaN last.
+def ascending(V: Floats, *others: NDArray[Any]) -> None:
+    """Put the few rows (root, cell) of V, and others with them, into their order in place; NaN last.
 
-    numpy sorts each column by itself, which takes ten times as long.
+    Equal V are in the order of the next rows. numpy sorts each column by itself, which takes ten times as
+    long.
     """
     for last in range(len(V) - 1, 0, -1):
         for i in range(last):
-            wrong = (V[i] > V[i + 1]) | ((V[i] == V[i + 1]) & (rest[i] > rest[i + 1]))
+            wrong = V[i] > V[i + 1]
+            for rest in others[:1]:
+                wrong |= (V[i] == V[i + 1]) & (rest[i] > rest[i + 1])
             cells = np.flatnonzero(wrong)
             if len(cells):
-                for values in (V, rest, *others):
+                for values in (V, *others):
                     values[i, cells], values[i + 1, cells] = values[i + 1, cells], values[i, cells]
 
 

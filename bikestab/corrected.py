@@ -1,42 +1,85 @@
-"""Zeros of conditions found in double precision → their corrections in twice double precision, with bounds.
+"""Zeros of conditions found in double precision → their corrections with more digits, and bounds.
 
 A condition as a polynomial in V has products of three entries of the table as coefficients. Double precision
-is enough to count its zeros, to come near them and for its slope there. Its value there is formed in twice
-double precision from the entries themselves, so that one step of Newton's method is as good as many.
-Cells for which that is not certain are left to ``certain``.
+is enough to count its zeros, to come near them and for its slope there. Its value there is formed in numbers
+of 79 bits from the entries themselves, so that one step of Newton's method is as good as many; where these
+are too few, in twice double precision. Cells for which that is not certain are left to ``certain``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.certain import Zeros, collected, signs
 from bikestab.entries import Entries
+from bikestab.halved import Halved, halved, halved_double, product, square
 from bikestab.isolation import isolated
 from bikestab.model import Floats
 from bikestab.roots import bracketed_root
 from bikestab.rounding import COEFFICIENT, CONDITION_AT, POLYNOMIAL
-from bikestab.twofold import Double, Pair, Twofold, pair_product, pair_sum, two_product
+from bikestab.twofold import Double, Pair, Twofold, pair_difference, pair_product, pair_sum, two_product
 
-_ENOUGH = 2.0**-60  # a bound relative to its speed, far below the rounding of that
+_ENOUGH = 2.0**-55  # a bound relative to its speed, below the rounding of that
 _MOST = 0.5  # of the cells: so many are worked on as quickly together with the others as by themselves
+_STEPS = 4  # in twice double precision
 _Cells = NDArray[np.bool_]
+_Some = Any  # an index of cells
 
-
-ValueAt = Callable[[Entries, Floats], Pair]
 Coefficients = Sequence[Double | None]  # of V^0, V^1, …; None where it is zero in all cells
 
 
-def hurwitz3_at(entries: Entries, V: Floats) -> Pair:
-    """Hurwitz3 at speeds (cell,), without damping divided by V²; to CONDITION_AT of its terms' sizes."""
-    square = two_product(V, V)
+class Condition(NamedTuple):
+    """A condition as a polynomial in V, from a table's entries.
+
+    ``polynomial`` is made of the entries as ``Double``; ``near`` is its value at speeds of some cells, to
+    CONDITION_AT of its terms' sizes, and ``at`` to COEFFICIENT of them.
+    """
+
+    polynomial: Callable[[dict[tuple[int, int], Double]], Coefficients]
+    near: Callable[[Entries, Floats, _Some], Pair]
+    at: Callable[[Entries, Floats], Pair]
+
+
+def hurwitz3_near(entries: Entries, V: Floats, cell: _Some) -> Pair:
+    """Hurwitz3 at speeds of cells, without damping divided by V²; to CONDITION_AT of its terms' sizes."""
+
+    def entry(k: int, j: int) -> Halved:
+        head, tail, whole = entries.halved(k, j)
+        return head[cell], tail[cell], whole[cell]
+
+    speed = halved_double(V)
+    x = halved(square(speed))
     p0, p1, p2 = (
-        pair_sum(entries.pair(k, j), pair_product(entries.pair(k, j + 2), square))
+        halved(pair_sum(product(entry(k, j + 2), x), entries.pair(k, j, cell)))
+        for k, j in ((0, 0), (1, 1), (2, 0))
+    )
+    p3, p4 = entry(3, 1), entry(4, 0)
+    if (3, 0) in entries.numbers:
+        p1 = halved(pair_sum(product(p1, speed), entries.pair(1, 0, cell)))
+        p3 = halved(pair_sum(product(p3, speed), entries.pair(3, 0, cell)))
+    inner = halved(pair_difference(product(p2, p3), product(p4, p1)))
+    return pair_difference(product(p1, inner), product(p0, halved(square(p3))))
+
+
+def p1_near(entries: Entries, V: Floats, cell: _Some) -> Pair:
+    """P1 with damping, as ``hurwitz3_near``."""
+    head, tail, whole = entries.halved(1, 3)
+    speed = halved_double(V)
+    x = halved(square(speed))
+    odd = pair_sum(product((head[cell], tail[cell], whole[cell]), x), entries.pair(1, 1, cell))
+    return pair_sum(product(halved(odd), speed), entries.pair(1, 0, cell))
+
+
+def hurwitz3_at(entries: Entries, V: Floats) -> Pair:
+    """Hurwitz3 at a speed of each cell, without damping divided by V²; to COEFFICIENT of its terms' sizes."""
+    x = two_product(V, V)
+    p0, p1, p2 = (
+        pair_sum(entries.pair(k, j), pair_product(entries.pair(k, j + 2), x))
         for k, j in ((0, 0), (1, 1), (2, 0))
     )
     p3, p4 = entries.pair(3, 1), entries.pair(4, 0)
@@ -44,23 +87,22 @@ def hurwitz3_at(entries: Entries, V: Floats) -> Pair:
         speed = V, np.zeros_like(V)
         p1 = pair_sum(pair_product(p1, speed), entries.pair(1, 0))
         p3 = pair_sum(pair_product(p3, speed), entries.pair(3, 0))
-    a, b = pair_product(p4, p1)
-    inner = pair_sum(pair_product(p2, p3), (-a, -b))
-    a, b = pair_product(pair_product(p3, p3), p0)
-    return pair_sum(pair_product(p1, inner), (-a, -b))
+    inner = pair_difference(pair_product(p2, p3), pair_product(p4, p1))
+    return pair_difference(pair_product(p1, inner), pair_product(pair_product(p3, p3), p0))
 
 
 def p1_at(entries: Entries, V: Floats) -> Pair:
-    """P1 with damping at speeds (cell,)."""
+    """P1 with damping, as ``hurwitz3_at``."""
     speed = V, np.zeros_like(V)
     odd = pair_sum(entries.pair(1, 1), pair_product(entries.pair(1, 3), two_product(V, V)))
     return pair_sum(pair_product(odd, speed), entries.pair(1, 0))
 
 
-def step(value: Pair, c: Coefficients, V: Floats) -> tuple[Twofold, Floats, _Cells]:
-    """Zeros near V (cell,), bounds on their errors, and for which these are certain and small.
+def step(value: Pair, c: Coefficients, V: Floats, share: float) -> tuple[Floats, _Cells]:
+    """Zeros near V (root,) as V, rest and radius (3, root), and for which these are certain.
 
-    ``value`` is that of the polynomials at V. The slope changes by less than a sixteenth on twice the way.
+    ``value`` is that of the polynomials at V, right to a ``share`` of their terms' sizes. The slope changes
+    by less than a sixteenth on twice the way.
     """
     zero = np.zeros_like(V)
     slope, last, size, slope_size, bend = zero, zero, zero, zero, zero
@@ -68,13 +110,13 @@ def step(value: Pair, c: Coefficients, V: Floats) -> tuple[Twofold, Floats, _Cel
         slope, bend, slope_size = slope * V + last, bend * V + 2 * slope_size, slope_size * V + size
         last, size = (last * V, size * V) if a is None else (last * V + a.value, size * V + a.size)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        steep, f, error = np.abs(slope), np.abs(value[0] + value[1]), CONDITION_AT * size
+        steep, f, error = np.abs(slope), np.abs(total := value[0] + value[1]), share * size
         far = 1.25 * (f + error) / steep
         doubt = (4 * POLYNOMIAL * slope_size + 2 * far * bend) / steep
         radius = 1.25 * (error + (doubt + 2.0**-50) * f) / steep
-        x = V - (rest := (value[0] + value[1]) / slope)
-        good = (doubt < 1 / 16) & (far <= V / 16) & (radius <= _ENOUGH * V) & (x > 0)
-    return Twofold(x, (V - x) - rest), radius, good
+        x = V - (move := total / slope)
+        good = (doubt < 1 / 16) & (far <= V / 16) & (x > 0)
+    return np.array([x, (V - x) - move, radius]), good
 
 
 def _signs(a: Double) -> tuple[Floats, _Cells]:
@@ -102,7 +144,7 @@ def zero_of_even(a: Twofold, b: Twofold, fine: bool) -> Zeros:
     return Zeros(x[np.newaxis], ((V - x) - move)[np.newaxis], radius[np.newaxis], sure_a & sure_b)
 
 
-def zeros_of_quadratic(entries: Entries, c: Sequence[Double]) -> Zeros:
+def zeros_of_quadratic(entries: Entries, condition: Condition, c: Sequence[Double]) -> Zeros:
     """The positive zeros V of hurwitz3 without damping, c0 + c1 V² + c2 V⁴; ``sure`` where they are good."""
     c0, c1, c2 = c
     product = c0 * c2
@@ -117,37 +159,52 @@ def zeros_of_quadratic(entries: Entries, c: Sequence[Double]) -> Zeros:
         one, other = (
             np.sqrt(np.where(good & (x > 0) & (x < np.inf), x, np.nan)) for x in (q / c2.value, c0.value / q)
         )
-    polynomial = c0, None, c1, None, c2
-    out = np.full((3, 2, len(good)), np.nan)
-    for i, V in enumerate((np.fmin(one, other), np.maximum(one, other))):
-        exists = V > 0
-        number = np.count_nonzero(exists)
-        if number:
-            cell = np.flatnonzero(exists) if number < _MOST * len(V) else slice(None)
-            out[:, i, cell], sure = _corrected(entries, polynomial, cell, V[cell])
-            good[cell] &= sure | ~exists[cell]
-    good &= ~(out[0, 1] - out[0, 0] <= out[2, 1] + out[2, 0])  # twice the same
-    return Zeros(out[0], out[1], out[2], good)
+    V = np.array([np.fmin(one, other), np.maximum(one, other)])
+    return corrected(entries, condition, (c0, None, c1, None, c2), V, good)
 
 
-def zeros_between(entries: Entries, c: Coefficients, value_at: ValueAt) -> Zeros:
+def zeros_between(entries: Entries, condition: Condition, c: Coefficients) -> Zeros:
     """The positive zeros V of p1 or hurwitz3 with damping; ``sure`` where they are good."""
     (cell, low, high, sign), undecided = isolated(c, len(entries))
     plain = np.array([np.zeros(len(cell)) if a is None else a.value[cell] for a in c])
     start = bracketed_root(plain, low, high, sign)
-    found, sure = _corrected(entries, c, cell, start, value_at)
-    good = ~undecided
-    good[cell[~sure]] = False
-    zeros = collected(cell, found, len(entries))
-    for one, other in pairwise(zip(zeros.V, zeros.radius, strict=True)):
-        good &= ~(other[0] - one[0] <= other[1] + one[1])
-    return zeros._replace(sure=good)
+    return corrected(entries, condition, c, collected(cell, start[np.newaxis], len(entries))[0], ~undecided)
 
 
-def _corrected(
-    entries: Entries, c: Coefficients, cell: Any, V: Floats, value_at: ValueAt = hurwitz3_at
-) -> tuple[Floats, _Cells]:
-    """V, rest and radius (3, root) of zeros near V (root,) in these cells, and for which they are certain."""
-    some = [None if a is None else a.at(cell) for a in c]
-    zero, radius, sure = step(value_at(entries.at(cell), V), some, V)
-    return np.array([zero.value, zero.rest, radius]), sure
+def corrected(entries: Entries, condition: Condition, c: Coefficients, V: Floats, settled: _Cells) -> Zeros:
+    """The zeros near V (rank, cell), NaN where there is none; ``sure`` where they are good.
+
+    In ``settled`` cells it is certain that there are so many.
+    """
+    found = np.full((3, *V.shape), np.nan)
+    missing = V > 0
+    for i, exists in enumerate(missing.copy()):
+        number = np.count_nonzero(exists)
+        if number:
+            cell = np.flatnonzero(exists) if number < _MOST * len(exists) else slice(None)
+            start, some = V[i, cell], [None if a is None else a.at(cell) for a in c]
+            found[:, i, cell], sure = step(condition.near(entries, start, cell), some, start, CONDITION_AT)
+            missing[i, cell] &= ~(sure & (found[2, i, cell] <= _ENOUGH * start))
+    rank, cell = np.nonzero(missing & settled)
+    if len(rank):
+        found[:, rank, cell], sure = _again(entries.at(cell), condition, V[rank, cell])
+        missing[rank[sure], cell[sure]] = False
+    good = settled & ~missing.any(axis=0)
+    for (one, other), (rest, more), (near, far) in zip(*map(pairwise, found), strict=True):
+        good &= ~((other - one) + (more - rest) <= near + far)  # it may be the same twice
+    return Zeros(found[0], found[1], found[2], good)
+
+
+def _again(entries: Entries, condition: Condition, V: Floats) -> tuple[Floats, _Cells]:
+    """As ``step``, in twice double precision, and several times where that is needed."""
+    c = condition.polynomial(entries.sized())
+    for _ in range(_STEPS):
+        found, sure = step(condition.at(entries, V), c, V, COEFFICIENT)
+        x, rest, radius = found
+        # a zero that is as good as its terms allow moves no more
+        sure &= (radius <= _ENOUGH * V) | (np.abs((V - x) - rest) <= 6 * radius)
+        todo = ~sure & (x > 0) & (x < np.inf)
+        if not todo.any():
+            break
+        V = np.where(todo, x, V)
+    return found, sure

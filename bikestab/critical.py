@@ -12,8 +12,11 @@ from bikestab import certain
 from bikestab.certain import Zeros, square_roots, zero_of_linear, zeros_of
 from bikestab.corrected import (
     Coefficients,
+    Condition,
     hurwitz3_at,
+    hurwitz3_near,
     p1_at,
+    p1_near,
     zero_of_even,
     zeros_between,
     zeros_of_quadratic,
@@ -97,8 +100,8 @@ def _even(entries: Entries, name: str) -> Found:
     """Without damping: p0, p2, p1/V and hurwitz3/V² in V²."""
     numbers = entries.numbers
     if name == "hurwitz3":
-        w = _hurwitz3_even({key: entries.double(*key) for key in EVEN})
-        return _again(zeros_of_quadratic(entries, w), w, entries, _fine_even)
+        w = _hurwitz3_even(entries.doubles())
+        return _again(zeros_of_quadratic(entries, _EVEN_HURWITZ3, w), w, entries, _fine_even)
     if name in ("p3", "p4"):
         return _found(_none(len(entries)), [numbers[(3, 1) if name == "p3" else (4, 0)]])
     a, b = {"p0": ((0, 0), (0, 2)), "p1": ((1, 1), (1, 3)), "p2": ((2, 0), (2, 2))}[name]
@@ -113,6 +116,16 @@ def _hurwitz3_even(n: dict[tuple[int, int], T]) -> list[T]:
     return [e0 * slow - f0 * square, e0 * fast + e * slow - f * square, e * fast]
 
 
+def _spread(w: Sequence[Double]) -> Coefficients:
+    """A polynomial in V² as one in V."""
+    return [w[0], *(each for a in w[1:] for each in (None, a))]
+
+
+_EVEN_HURWITZ3 = Condition(lambda n: _spread(_hurwitz3_even(n)), hurwitz3_near, hurwitz3_at)
+_P1 = Condition(lambda n: _rows(n)[1], p1_near, p1_at)
+_HURWITZ3 = Condition(lambda n: hurwitz3_of(_rows(n)), hurwitz3_near, hurwitz3_at)
+
+
 def _fine_even(entries: Entries) -> Found:
     w = _hurwitz3_even(entries.numbers)
     return _found(square_roots(certain.zeros_of_quadratic(*w)), w)
@@ -125,11 +138,9 @@ def _damped(entries: Entries, name: str) -> Found:
     n = entries.numbers
     if name == "p3":
         return _found(zero_of_linear(n[3, 0], n[3, 1]), [n[3, 0], n[3, 1]])
-    doubles = _rows({key: entries.double(*key) for key in n})
-    c, value_at, fine = (
-        (doubles[1], p1_at, _fine_p1) if name == "p1" else (hurwitz3_of(doubles), hurwitz3_at, _fine_hurwitz3)
-    )
-    return _again(zeros_between(entries, c, value_at), c, entries, fine)
+    condition, fine = (_P1, _fine_p1) if name == "p1" else (_HURWITZ3, _fine_hurwitz3)
+    c = condition.polynomial(entries.doubles())
+    return _again(zeros_between(entries, condition, c), c, entries, fine)
 
 
 def _fine_p1(entries: Entries) -> Found:
@@ -144,14 +155,17 @@ def _fine_hurwitz3(entries: Entries) -> Found:
 
 def _again(zeros: Zeros, c: Coefficients, entries: Entries, fine: Callable[[Entries], Found]) -> Found:
     """With the cells that are not sure done in twice double precision throughout."""
-    first = _found(zeros, c)
     poor = np.flatnonzero(~zeros.sure)
+    sign = _found(zeros, c)[1]
     if not len(poor):
-        return first
-    good = zeros.sure
-    second = fine(entries.at(poor))
-    kept = Zeros(zeros.V[:, good], zeros.rest[:, good], zeros.radius[:, good], zeros.sure[good])
-    return _together([(good, kept, first[1][good]), (~good, *second)], len(good))
+        return zeros, sign
+    second, sign[poor] = fine(entries.at(poor))
+    most = max(len(zeros.V), len(second.V))
+    rows = [_rows_of(values, most) for values in zeros[:3]]
+    for into, values in zip(rows, second[:3], strict=True):
+        into[:, poor] = _rows_of(values, most)
+    zeros.sure[poor] = second.sure
+    return Zeros(rows[0], rows[1], rows[2], zeros.sure), sign
 
 
 def _any(entries: Entries, name: str) -> Found:

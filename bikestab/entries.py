@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.halved import Halved, halved_double
 from bikestab.model import ExactTable, Floats
 from bikestab.rounding import CLOSE, ENTRY
 from bikestab.twofold import Double, Pair, Twofold
@@ -31,6 +32,7 @@ class Entries:
 
     def __init__(self, numbers: dict[tuple[int, int], Twofold]) -> None:
         self.numbers = numbers
+        self._halved: dict[tuple[int, int], Halved] = {}
 
     def at(self, cells: NDArray[Any]) -> Entries:
         """Some of the cells."""
@@ -39,15 +41,27 @@ class Entries:
     def __len__(self) -> int:
         return len(self.numbers[4, 0].value)
 
-    def double(self, k: int, j: int) -> Double:
-        """One of them in double precision."""
-        a = self.numbers[k, j]
-        return Double(a.value, np.abs(a.value) + a.size * (ENTRY / CLOSE) if np.ndim(a.rest) else a.size)
+    def doubles(self) -> dict[tuple[int, int], Double]:
+        """Them in double precision, with sizes that are themselves and 1/CLOSE of their errors."""
+        return {
+            key: Double(a.value, np.abs(a.value) + a.size * (ENTRY / CLOSE) if np.ndim(a.rest) else a.size)
+            for key, a in self.numbers.items()
+        }
 
-    def pair(self, k: int, j: int) -> Pair:
-        """One of them in twice double precision."""
+    def sized(self) -> dict[tuple[int, int], Double]:
+        """Them in double precision, with the sizes of all their terms."""
+        return {key: Double(a.value, a.size) for key, a in self.numbers.items()}
+
+    def pair(self, k: int, j: int, cell: Any = slice(None)) -> Pair:
+        """One of them in twice double precision, in some cells."""
         a = self.numbers[k, j]
-        return a.value, a.rest
+        return a.value[cell], a.rest[cell] if np.ndim(a.rest) else a.rest
+
+    def halved(self, k: int, j: int) -> Halved:
+        """One of them as a number of 79 bits."""
+        if (k, j) not in self._halved:
+            self._halved[k, j] = halved_double(*self.pair(k, j))
+        return self._halved[k, j]
 
 
 class Cells(NamedTuple):

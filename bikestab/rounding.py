@@ -11,9 +11,10 @@ ENTRY = 2.0**-95
 # A coefficient of a condition as a polynomial in V: a product of three entries, and some operations.
 COEFFICIENT = 2.0**-92
 
-# A value of a condition in twice double precision; the size of an entry is then itself and 2^80 of its error.
-CLOSE = 2.0**-80
-CONDITION_AT = 4 * CLOSE  # three entries, and operations that do not count beside them
+# A value of a condition in numbers of 79 bits: 76 · 2^−79 from operations, and three times CLOSE from
+# entries, whose sizes are then themselves and 2^76 of their errors.
+CLOSE = 2.0**-76
+CONDITION_AT = 2.0**-72
 
 # Double precision. A coefficient of a condition as a polynomial in V: a product of three entries, which are
 # rounded themselves, and up to ten more roundings.

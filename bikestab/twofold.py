@@ -37,11 +37,17 @@ def two_product(a: Any, b: Any) -> tuple[Any, Any]:
     return p, rest
 
 
-def _halves(a: Any) -> tuple[Any, Any]:
-    """A as a sum of two numbers of 26 bits."""
+def head_of(a: Any) -> Any:
+    """The first 26 bits."""
     high = _SPLITTER * a
     low = high - a
     high -= low
+    return high
+
+
+def _halves(a: Any) -> tuple[Any, Any]:
+    """A as a sum of two numbers of 26 bits."""
+    high = head_of(a)
     return high, a - high
 
 
@@ -59,6 +65,16 @@ def pair_sum(a: Pair, b: Pair) -> Pair:
     """The sum of two pairs value + rest, not ordered: the rest may grow to some u of the terms' sizes."""
     s, r = two_sum(a[0], b[0])
     r += a[1] + b[1]
+    return s, r
+
+
+def pair_difference(a: Pair, b: Pair) -> Pair:
+    """A − b, as ``pair_sum``."""
+    s = a[0] - b[0]
+    part = s - a[0]
+    r = a[0] - (s - part)
+    r -= b[0] + part
+    r += a[1] - b[1]
     return s, r
 
 
