@@ -34,13 +34,17 @@ def assemble(plan: Plan, spool: Spool, path: Path) -> tuple[int, Agreement, Agre
         return _atlases(plan, spool, member)
 
     bracketing = Bracketing(plan.config.grid.values("V"), plan.points // plan.shape[-1])
-    widths = [atlas.width for member in range(plan.members) for atlas in atlases(member).values()]
+    if plan.whole:
+        widths = [note["sheets"] for note in notes.values() if note["columns_size"]]
+    else:
+        widths = [atlas.width for member in range(plan.members) for atlas in atlases(member).values()]
     with new_volume(path, plan) as writer:
         writer.create_columns(
             max(note["intervals"] for note in notes.values() if note["columns_size"]), max(widths)
         )
         for number in range(len(plan)):
-            _write(writer, plan, spool, number, atlases(plan.member(number)), bracketing)
+            atlas = {} if plan.whole else atlases(plan.members_of(number)[0])
+            _write(writer, plan, spool, number, atlas, bracketing)
         bracketed = bracketing.agreement()
         writer.finish(stable_points, agreement, bracketed)
     return stable_points, agreement, bracketed
@@ -70,8 +74,9 @@ def _write(
     writer.write_fields(place, plan[number].shape, unbundled(spool.read(number, slice(size, None))))
     if size:
         columns = _columns(spool, number)
-        bracketing.add(plan.cell(number), plan[number], columns.roots, columns.undecided)
-        surfaces = {
+        found = columns.sheets or columns.roots
+        bracketing.add(plan.cell(number), plan[number], found, columns.undecided)
+        surfaces = columns.sheets or {
             name: atlas.sheets(plan.cell(number), columns.roots[name], columns.intervals)
             for name, atlas in atlases.items()
         }

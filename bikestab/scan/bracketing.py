@@ -7,18 +7,20 @@ root finder closes in on the zero.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.errors import ScanError
+from bikestab.machines import Machines
 from bikestab.model import Floats, exact_table
 from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, condition, conditions
 from bikestab.scan.agreement import AGREEMENT, Agreement, by_rounding, size_of_terms
 from bikestab.scan.linking import widened
-from bikestab.scan.sheets import Roots
+from bikestab.scan.sheets import Roots, Sheets
 from bikestab.scan.tile import Tile
 
 COLUMNS = 2_500  # looked at, at most; they have some four sign changes each
@@ -30,7 +32,7 @@ _STEPS = 0.7548776662466927, 0.5698402909980532  # of λ and σ: irrational, so 
 class Brackets(NamedTuple):
     """Sign changes of one condition: tables (5, 4, bracket), the speeds on both sides, and all exact roots.
 
-    ``exact`` [m/s] has shape (bracket, root), NaN behind a cell's last.
+    ``exact`` [m/s] has shape (bracket, root), NaN where a cell has none.
     """
 
     table: Floats
@@ -52,17 +54,20 @@ class Bracketing:
         self._brackets: dict[str, list[Brackets]] = {name: [] for name in CONDITIONS}
 
     def add(
-        self, place: tuple[int, int], tile: Tile, roots: dict[str, Roots], undecided: NDArray[np.bool_]
-    ) -> None:
+        self, place: tuple[int, int], tile: Tile, roots: Mapping[str, Roots | Sheets],
+        undecided: NDArray[np.bool_],
+    ) -> None:  # fmt: skip
         """Find the sign changes in some columns of a tile that begins at ``place`` and has these roots.
 
         Left out are the (λ, σ) where there may be others.
         """
-        i, j = np.nonzero(self._chosen(place, tile.shape[:2]) & ~undecided)
+        chosen = self._chosen(place, tile.shape[-3:-1]) & ~undecided
+        tables = _tables(tile, chosen)
+        at_all = np.nonzero(chosen)
         step = max(1, _PART // len(self._V))
-        for start in range(0, len(i), step):
-            at = i[start : start + step], j[start : start + step]
-            table = exact_table(tile.bicycle, tile.lam[at[0]], tile.sigma[at[1]], model=tile.model).value
+        for start in range(0, len(at_all[0]), step):
+            at = tuple(i[start : start + step] for i in at_all)
+            table = tables[..., start : start + step]
             for first in range(0, len(self._V) - 1, _PART):
                 self._look(
                     table, self._V[first : first + _PART + 1], {name: r.V[at] for name, r in roots.items()}
@@ -82,7 +87,7 @@ class Bracketing:
             )
         return total
 
-    def _chosen(self, place: tuple[int, int], shape: tuple[int, int]) -> NDArray[np.bool_]:
+    def _chosen(self, place: tuple[int, int], shape: tuple[int, ...]) -> NDArray[np.bool_]:
         i, j = (first + np.arange(n) for first, n in zip(place, shape, strict=True))
         return (_STEPS[0] * i[:, np.newaxis] + _STEPS[1] * j) % 1 < self._share
 
@@ -94,6 +99,16 @@ class Bracketing:
             cell, k = np.nonzero(changes)
             if len(cell):
                 self._brackets[name].append(Brackets(table[..., cell], V[k], V[k + 1], exact[name][cell]))
+
+
+def _tables(tile: Tile, chosen: NDArray[np.bool_]) -> Floats:
+    """The tables (5, 4, cell) of chosen (…, λ, σ) of a tile."""
+    if not isinstance(tile.bicycle, Machines):
+        *_, i, j = np.nonzero(chosen)
+        return exact_table(tile.bicycle, tile.lam[i], tile.sigma[j], model=tile.model).value
+    i, j = np.nonzero(chosen.any(axis=tuple(range(len(tile.block)))))
+    table = exact_table(tile.bicycle, tile.lam[i], tile.sigma[j], model=tile.model).value
+    return table[:, :, chosen[..., i, j].reshape(tile.bicycle.number, -1)]
 
 
 def _whole(parts: list[Brackets]) -> Brackets:

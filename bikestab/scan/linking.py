@@ -34,7 +34,7 @@ class Direction:
         first = self._first[place] = len(self._count)
         there = sheet >= 0
         self._count += np.bincount(sheet[there], minlength=number).tolist()
-        self._sum += np.bincount(sheet[there], _place(V[there]), minlength=number).tolist()
+        self._sum += np.bincount(sheet[there], place_of(V[there]), minlength=number).tolist()
         if self.linked:
             sheet = np.where(there, sheet + first, -1)
             self._note_within(sheet)
@@ -42,9 +42,9 @@ class Direction:
 
     def _note_within(self, sheet: Indices) -> None:
         """Which sheets of a tile share a cell, and which have neighbours."""
-        shared = _pairs(sheet, sheet)
+        shared = pairs(sheet, sheet)
         self._overlap.append(shared)
-        self._touch += [shared, _pairs(sheet[1:], sheet[:-1]), _pairs(sheet[:, 1:], sheet[:, :-1])]
+        self._touch += [shared, pairs(sheet[1:], sheet[:-1]), pairs(sheet[:, 1:], sheet[:, :-1])]
 
     def _note_across(self, column: int, V: Floats, sheet: Indices) -> None:
         """Which sheets touch or continue those of the tiles above and to the left.
@@ -59,8 +59,8 @@ class Direction:
             if key in self._borders:
                 strips = zip(self._borders[key], (V[edge], sheet[edge]), strict=True)
                 strip_V, strip = (_side_by_side(pair, axis) for pair in strips)
-                self._touch.append(_pairs(*np.split(strip, 2, axis=axis)))
-                self._joint.append(strip[np.isfinite(strip_V)][_links(strip_V, axis)])
+                self._touch.append(pairs(*np.split(strip, 2, axis=axis)))
+                self._joint.append(strip[np.isfinite(strip_V)][links_of(strip_V, axis)])
         self._borders |= ours
 
     def finish(self) -> list[float]:
@@ -69,7 +69,7 @@ class Direction:
         self._slot = np.zeros(number, np.intp)
         if self.linked:
             sheet = self._merged(number)
-            self._slot = _first_free(sheet, np.array(self._count), sheet[np.concatenate(self._touch, axis=1)])
+            self._slot = first_free(sheet, np.array(self._count), sheet[np.concatenate(self._touch, axis=1)])
         count = np.bincount(self._slot, self._count)
         return (np.bincount(self._slot, self._sum)[count > 0] / count[count > 0]).tolist()
 
@@ -108,25 +108,29 @@ class Direction:
         sheet = np.where(there, 0, -1)
         if self.linked:
             cell = np.repeat(np.arange(V.shape[0] * V.shape[1]), np.count_nonzero(there, axis=-1).ravel())
-            links = np.concatenate([_links(V, axis) for axis in (0, 1)], axis=1)
+            links = np.concatenate([links_of(V, axis) for axis in (0, 1)], axis=1)
             sheet[there] = _single_valued(links, cell)
         return sheet, int(sheet.max(initial=-1)) + 1
 
 
-def _place(V: Floats) -> Floats:
+def place_of(V: Floats) -> Floats:
     return V / (V + SPEED)
 
 
-def _links(V: Floats, axis: int) -> Indices:
-    """Pairs (2, link) of roots, numbered as in V[isfinite(V)], that continue each other along an axis.
+def links_of(V: Floats, axis: int) -> Indices:
+    """Pairs (2, link) of roots (…, λ, σ, root), numbered as in V[isfinite(V)], that continue each other.
+
+    They do so along λ (axis 0) or σ (1).
 
     Each is the other's nearest, so a pair born at a fold between two cells takes no root's partner away.
     """
-    x, there = _place(V), np.isfinite(V)
+    x, there = place_of(V), np.isfinite(V)
     if not there.any():
         return _NO_PAIRS
     number = np.cumsum(there.ravel()).reshape(V.shape) - 1
-    a, b = ((np.s_[:-1], np.s_[1:]), (np.s_[:, :-1], np.s_[:, 1:]))[axis]
+    a, b = (
+        (np.s_[..., :-1, :, :], np.s_[..., 1:, :, :]), (np.s_[..., :-1, :], np.s_[..., 1:, :]),
+    )[axis]  # fmt: skip
     far = np.abs(x[a][..., :, np.newaxis] - x[b][..., np.newaxis, :])
     far[np.isnan(far)] = np.inf
     ahead, back = far.argmin(axis=-1), far.argmin(axis=-2)
@@ -135,7 +139,7 @@ def _links(V: Floats, axis: int) -> Indices:
     return np.array([number[a][mutual], np.take_along_axis(number[b], ahead, axis=-1)[mutual]])
 
 
-def _pairs(a: Indices, b: Indices) -> Indices:
+def pairs(a: Indices, b: Indices) -> Indices:
     """The pairs (2, pair) of different sheets that a cell of ``a`` and the same one of ``b`` have."""
     one, other = (x.reshape(-1) for x in np.broadcast_arrays(a[..., :, np.newaxis], b[..., np.newaxis, :]))
     some = (one >= 0) & (other >= 0) & (one != other)
@@ -162,20 +166,20 @@ def _single_valued(links: Indices, cell: Indices) -> Indices:
                )·····  lies nowhere over itself: cut where both layers are equally many steps away
         ──────╯ lower layer
     """
-    sheet = _connected(links, len(cell))
-    _, over_itself = _rank(sheet, cell)
+    sheet = connected(links, len(cell))
+    _, over_itself = rank_of(sheet, cell)
     if not over_itself.any():
         return sheet
     layer = _layers(links[:, over_itself[links].all(axis=0)], cell)
     layer = _spread(layer, over_itself, links)
-    return _connected(links[:, layer[links[0]] == layer[links[1]]], len(cell))
+    return connected(links[:, layer[links[0]] == layer[links[1]]], len(cell))
 
 
 def _layers(links: Indices, cell: Indices) -> Indices:
     """The layer of each root that the links reach, none with two roots in one cell."""
-    rank, still = _rank(_connected(links, len(cell)), cell)
+    rank, still = rank_of(connected(links, len(cell)), cell)
     rank[~still] = 0
-    return _connected(links[:, rank[links[0]] == rank[links[1]]], len(cell))
+    return connected(links[:, rank[links[0]] == rank[links[1]]], len(cell))
 
 
 def _spread(layer: Indices, known: NDArray[np.bool_], links: Indices) -> Indices:
@@ -189,7 +193,7 @@ def _spread(layer: Indices, known: NDArray[np.bool_], links: Indices) -> Indices
     return np.where(source >= 0, layer[np.maximum(source, 0)], -1)
 
 
-def _rank(sheet: Indices, cell: Indices) -> tuple[Indices, NDArray[np.bool_]]:
+def rank_of(sheet: Indices, cell: Indices) -> tuple[Indices, NDArray[np.bool_]]:
     """Which root of its sheet in its cell each is, from 0, and whether there are several."""
     order = np.lexsort((sheet, cell))
     new = np.diff(sheet[order], prepend=-1).astype(bool) | np.diff(cell[order], prepend=-1).astype(bool)
@@ -201,7 +205,7 @@ def _rank(sheet: Indices, cell: Indices) -> tuple[Indices, NDArray[np.bool_]]:
     return rank, several
 
 
-def _first_free(sheet: Indices, count: Indices, touch: Indices) -> Indices:
+def first_free(sheet: Indices, count: Indices, touch: Indices) -> Indices:
     """The slot of each tile's sheet: whole sheets, largest first, go into the lowest slot that is free.
 
     No other that they touch may be in it: neighbours in one slot are then of one sheet.
@@ -218,7 +222,7 @@ def _first_free(sheet: Indices, count: Indices, touch: Indices) -> Indices:
     return np.array([slot[k] for k in sheet.tolist()], np.intp)
 
 
-def _connected(links: Indices, number: int) -> Indices:
+def connected(links: Indices, number: int) -> Indices:
     from scipy.sparse.csgraph import connected_components  # only damping needs it
 
     return connected_components(_graph(links, number), directed=False)[1]

@@ -11,10 +11,14 @@ import numpy as np
 
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.fields import AXES, FIELDS
+from bikestab.machines import Machines
 from bikestab.scan.tile import Tile
 
 _COLUMN, _SAMPLE = 2.0, 1.0  # µs per (λ, σ), per (λ, σ) and sample; on one core
 _TILE_BYTES = 1 << 24  # of a tile's fields before compression
+_TILE_COLUMNS = 64, 128  # λ and σ of a tile; with small grids as many (λ, σ) of several machines
+_CHUNK = 32, 32, 32
+_ENSEMBLE_COLUMNS, _ENSEMBLE_CHUNK = (16, 16), (16, 16, 64)
 
 
 @dataclass(frozen=True)
@@ -22,7 +26,8 @@ class Plan:
     """The tiles of a scan.
 
     A tile has one machine of the sweep, a rectangle of (λ, σ) and as many speeds as memory bears; its
-    sides are multiples of the file's chunks. An ensemble takes long per (λ, σ): its rectangles are small.
+    sides are multiples of the file's chunks. Where a machine's whole grid is less than that, it has several
+    machines, which follow each other. An ensemble takes long per (λ, σ): its rectangles are small.
     """
 
     config: ScanConfig
@@ -49,33 +54,56 @@ class Plan:
         return prod(self.shape)
 
     @cached_property
-    def chunk(self) -> tuple[int, int, int]:
+    def chunk(self) -> tuple[int, ...]:
         """A chunk of a field in the file: a slice across any axis reads one layer of them."""
-        sides = (16, 16, 64) if self.config.ensemble else (32, 32, 32)
-        return tuple(map(min, sides, self.config.grid.shape))  # type: ignore[return-value]  # three of each
+        sides = _ENSEMBLE_CHUNK if self.config.ensemble else _CHUNK
+        within = tuple(map(min, sides, self.config.grid.shape))
+        most = prod(sides) // prod(within) if within == self.config.grid.shape else 1
+        return (*_block(self.lead, min(most, self._machines)), *within)
 
     @cached_property
-    def tile(self) -> tuple[int, int, int]:
+    def tile(self) -> tuple[int, ...]:
         """The largest tile."""
-        n, m, _ = map(min, (16, 16, 1) if self.config.ensemble else (64, 128, 1), self.config.grid.shape)
-        each = sum(np.dtype(FIELDS[name].dtype).itemsize for name in self.fields)
-        chunk = self.chunk[2]
-        speeds = max(1, _TILE_BYTES // (n * m * each) // chunk) * chunk
-        return tuple(map(min, (n, m, speeds), self.config.grid.shape))  # type: ignore[return-value]  # three
+        steps = zip(_block(self.lead, self._machines), self.lead, self.chunk, strict=False)
+        block = (n if n == whole else n // step * step for n, whole, step in steps)
+        return (*block, *self._tile_of_one)
+
+    @cached_property
+    def _tile_of_one(self) -> tuple[int, ...]:
+        """The largest tile of one machine."""
+        grid, (n, m) = self.config.grid.shape, map(min, self._columns, self.config.grid.shape)
+        chunk = min((_ENSEMBLE_CHUNK if self.config.ensemble else _CHUNK)[2], grid[2])
+        speeds = max(1, _TILE_BYTES // (n * m * self._bytes) // chunk) * chunk
+        return tuple(map(min, (n, m, speeds), grid))
+
+    @property
+    def _columns(self) -> tuple[int, int]:
+        return _ENSEMBLE_COLUMNS if self.config.ensemble else _TILE_COLUMNS
+
+    @cached_property
+    def _bytes(self) -> int:
+        """Of a point's fields."""
+        return sum(np.dtype(FIELDS[name].dtype).itemsize for name in self.fields)
+
+    @cached_property
+    def _machines(self) -> int:
+        """How many machines a tile may have; their ensembles are drawn one by one."""
+        grid = self.config.grid.shape
+        if self.config.ensemble or self._tile_of_one != grid:
+            return 1
+        return max(1, min(prod(self._columns) // prod(grid[:2]), _TILE_BYTES // (prod(grid) * self._bytes)))
 
     @cached_property
     def _counts(self) -> tuple[int, ...]:
-        grid = zip(self.config.grid.shape, self.tile, strict=True)
-        return (self.members, *(ceil(n / step) for n, step in grid))
+        return tuple(ceil(n / step) for n, step in zip(self.shape, self.tile, strict=True))
 
     def __len__(self) -> int:
         return prod(self._counts)
 
     def place(self, number: int) -> tuple[int, ...]:
         """The tile's first index in the volume."""
-        member, *at = np.unravel_index(number, self._counts)
-        lead = np.unravel_index(member, self.lead) if self.lead else ()
-        return (*map(int, lead), *(int(i) * n for i, n in zip(at, self.tile, strict=True)))
+        at = np.unravel_index(number, self._counts)
+        return tuple(int(i) * n for i, n in zip(at, self.tile, strict=True))
 
     def cell(self, number: int) -> tuple[int, int]:
         """The tile's first indices of λ and σ."""
@@ -87,27 +115,44 @@ class Plan:
         """How many machines the sweep has."""
         return prod(self.lead)
 
-    def member(self, number: int) -> int:
-        """The number of a tile's machine."""
-        return number * self.members // len(self)
+    @property
+    def whole(self) -> bool:
+        """Whether a tile has all (λ, σ) of its machines."""
+        return self.tile[-3:-1] == self.config.grid.shape[:2]
+
+    def members_of(self, number: int) -> range:
+        """The numbers of a tile's machines."""
+        if not self.lead:
+            return range(1)
+        first = self.place(number)[:-3]
+        start = int(np.ravel_multi_index(first, self.lead))
+        return range(start, start + prod(self._block_at(first)))
+
+    def _block_at(self, first: tuple[int, ...]) -> tuple[int, ...]:
+        """How many values of the sweep's axes the tile has that begins there."""
+        return tuple(min(step, n - i) for step, n, i in zip(self.tile, self.lead, first, strict=False))
 
     def lowest(self, member: int) -> list[int]:
-        """The numbers of the tiles with the lowest speeds of one machine, row by row."""
-        _, n, m, k = self._counts
+        """The numbers of the tiles with the lowest speeds of one machine, row by row.
+
+        It must have tiles of its own.
+        """
+        *_, n, m, k = self._counts
         return [(member * n * m + i) * k for i in range(n * m)]
 
     def __getitem__(self, number: int) -> Tile:
-        first = self.place(number)[-3:]
+        config, place = self.config, self.place(number)
         lam, sigma, V = (
-            self._axes[name][i : i + n] for name, i, n in zip(AXES, first, self.tile, strict=True)
+            self._axes[name][i : i + n] for name, i, n in zip(AXES, place[-3:], self.tile[-3:], strict=True)
         )
-        lowest = number % self._counts[3] == 0
-        above = 0.0 if lowest else float(self._axes["V"][first[-1] - 1])
-        config = self.config
-        bicycle = config.members[self.member(number)].bicycle
+        lowest = place[-1] == 0
+        above = 0.0 if lowest else float(self._axes["V"][place[-1] - 1])
+        bicycles = [config.members[member].bicycle for member in self.members_of(number)]
         return Tile(
-            bicycle, config.model, lam, sigma, V, self.fields, self.chunk, lowest, above, config.ensemble
-        )
+            bicycles[0] if len(bicycles) == 1 else Machines.of(bicycles),
+            config.model, lam, sigma, V, self.fields, self.chunk, lowest, above, config.ensemble,
+            block=self._block_at(place[:-3]), whole=self.whole,
+        )  # fmt: skip
 
     @cached_property
     def _axes(self) -> dict[str, Any]:
@@ -119,3 +164,12 @@ class Plan:
         samples = self.config.ensemble.samples if self.config.ensemble else 0
         each = sum(FIELDS[name].cost for name in self.fields)
         return 1e-9 * each * self.points + 1e-6 * columns * (_COLUMN + _SAMPLE * samples)
+
+
+def _block(axes: tuple[int, ...], most: int) -> tuple[int, ...]:
+    """The sides of the largest block of the axes whose elements follow each other, ``most`` of them."""
+    sides: list[int] = []
+    for n in reversed(axes):
+        sides.insert(0, max(1, min(n, most)))
+        most //= n
+    return tuple(sides)

@@ -68,7 +68,7 @@ def sheets(name: str, roots: Roots, intervals: Intervals) -> Sheets:
 
 def most_roots(roots: Roots) -> tuple[int, int]:
     """How many roots a cell has at most at which the condition rises, and at which it falls."""
-    rising, falling = (int(np.count_nonzero(V > 0, axis=-1).max(initial=0)) for V in _directed(roots))
+    rising, falling = (int(np.count_nonzero(V > 0, axis=-1).max(initial=0)) for V in directed(roots))
     return rising, falling
 
 
@@ -85,7 +85,7 @@ class Atlas:
 
     def add(self, place: tuple[int, int], roots: Roots) -> None:
         """Take in the tile that begins at ``place``, an index of λ and one of σ."""
-        for direction, V in zip(self._directions, _directed(roots), strict=True):
+        for direction, V in zip(self._directions, directed(roots), strict=True):
             direction.add(place, V)
 
     def finish(self) -> None:
@@ -101,8 +101,8 @@ class Atlas:
         shape = (*roots.V.shape[:2], self.width)
         out = Sheets(np.full(shape, np.nan), np.zeros(shape, np.uint8))
         ends = (intervals.V1, intervals.lower), (intervals.V2, intervals.upper)  # stability begins rising
-        for k, V in enumerate(_directed(roots)):
-            edge = _is_end(V, ends[k][0], ends[k][1] == EDGES.get(self.name))
+        for k, V in enumerate(directed(roots)):
+            edge = is_end(V, ends[k][0], ends[k][1] == EDGES.get(self.name))
             direction = self._directions[k]
             slots = [(i, number) for i, (of, number) in enumerate(self._order) if of == k]
             if not direction.linked:  # one root at most
@@ -117,7 +117,7 @@ class Atlas:
         return out
 
 
-def _directed(roots: Roots) -> tuple[Floats, Floats]:
+def directed(roots: Roots) -> tuple[Floats, Floats]:
     """The roots at which the condition rises, and those at which it falls, NaN behind the last."""
     return _every_other(roots.V, roots.rising), _every_other(roots.V, ~roots.rising)
 
@@ -129,10 +129,10 @@ def _every_other(V: Floats, first: NDArray[np.bool_]) -> Floats:
     return np.where(first, V[..., 0::2], odd)
 
 
-def _is_end(V: Floats, ends: Floats, kind: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which roots are the ends (λ, σ, interval) of that kind: the nearest, however the ends are rounded."""
+def is_end(V: Floats, ends: Floats, kind: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which roots are the ends (…, interval) of that kind: the nearest, however the ends are rounded."""
     end = np.zeros(V.shape, bool)
-    for k in np.flatnonzero(kind.any(axis=(0, 1))):
+    for k in np.flatnonzero(kind.reshape(-1, kind.shape[-1]).any(axis=0)):
         far = np.abs(V - ends[..., k, np.newaxis])
         nearest = np.argmin(np.where(np.isnan(far), np.inf, far), axis=-1, keepdims=True)
         end |= (np.arange(V.shape[-1]) == nearest) & kind[..., k, np.newaxis]

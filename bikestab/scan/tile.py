@@ -16,13 +16,15 @@ from bikestab.bicycle import Bicycle
 from bikestab.critical import Critical, critical
 from bikestab.errors import ScanError
 from bikestab.fields import FIELDS, Points
+from bikestab.machines import Machines
 from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.routh import CONDITIONS
 from bikestab.scan.agreement import AGREEMENT, Agreement
 from bikestab.scan.chunks import bundled, packed
 from bikestab.scan.crosscheck import check
 from bikestab.scan.ensemble import ensemble_statistics
-from bikestab.scan.sheets import Roots, most_roots
+from bikestab.scan.planes import sheets_of_planes
+from bikestab.scan.sheets import Roots, Sheets, most_roots
 from bikestab.scan.signs import undecided, violated_between
 from bikestab.speeds import Intervals, intervals_between
 
@@ -30,55 +32,73 @@ if TYPE_CHECKING:
     from bikestab.config.variation import Ensemble
 
 _POINTS = 1 << 14  # evaluated at a time, so that an array of them and its temporaries fit the cache
+_SPEEDS = 256  # of them in a row, at most
 
 
 @dataclass(frozen=True)
 class Tile:
-    """A part of the grid: λ [rad], σ [1] and V [m/s] of one machine, and what is wanted of it.
+    """A part of the grid: λ [rad], σ [1] and V [m/s] of one machine or many, and what is wanted of it.
 
     ``lowest`` says whether it has the lowest speeds of its (λ, σ): it then also gives what does not depend on
-    V. Else ``above`` [m/s] is the last speed of the tile below.
+    V. Else ``above`` [m/s] is the last speed of the tile below. ``block`` has the lengths of a sweep's axes,
+    and ``whole`` says whether these are all (λ, σ) of the machines.
     """
 
-    bicycle: Bicycle
+    bicycle: Bicycle | Machines
     model: Model
     lam: Floats
     sigma: Floats
     V: Floats
     fields: tuple[str, ...]
-    chunk: tuple[int, int, int]
+    chunk: tuple[int, ...]
     lowest: bool
     above: float = 0.0
     ensemble: Ensemble | None = None
+    block: tuple[int, ...] = ()
+    whole: bool = False
 
     @property
-    def shape(self) -> tuple[int, int, int]:
-        """Number of λ, σ and V."""
-        return len(self.lam), len(self.sigma), len(self.V)
+    def shape(self) -> tuple[int, ...]:
+        """Number of values on each axis of a sweep, and of λ, σ and V."""
+        return (*self.block, len(self.lam), len(self.sigma), len(self.V))
+
+    @property
+    def cells(self) -> tuple[Floats, Floats]:
+        """λ and σ of each (λ, σ), one after the other."""
+        return np.repeat(self.lam, len(self.sigma)), np.tile(self.sigma, len(self.lam))
+
+    def table(self) -> ExactTable:
+        """The table (5, 4, cell) of all (λ, σ) of all machines."""
+        if isinstance(self.bicycle, Machines):
+            table = exact_table(self.bicycle, *self.cells, model=self.model)
+        else:
+            table = exact_table(self.bicycle, self.lam[:, np.newaxis], self.sigma, model=self.model)
+        return table.reshape(5, 4, -1)
 
 
 class Columns(NamedTuple):
     """What a tile's (λ, σ) have: the intervals of stable speed, the roots of each condition, and the spread.
 
-    ``undecided`` (λ, σ) tells where there may be other roots. ``spread`` (λ, σ, item) is an ensemble's
-    ``somewhere``, ``unbounded``, and quantiles of V1 and of V2.
+    Where the tile has whole planes there are ``sheets`` of the roots, else the ``roots`` as they come.
+    ``undecided`` (λ, σ) tells where there may be others. ``spread`` (λ, σ, item) is an ensemble's
+    ``somewhere``, ``unbounded``, and quantiles of V1 and of V2. All have a sweep's axes in front.
     """
 
     intervals: Intervals
     roots: dict[str, Roots]
+    sheets: dict[str, Sheets]
     undecided: NDArray[np.bool_]
     spread: Floats
 
     def to_bytes(self) -> bytes:
         """The columns as they are kept until the volume is written."""
         V1, V2, lower, upper, V1_error, V2_error, marginal = self.intervals.arrays().values()
-        V = [roots.V for roots in self.roots.values()]
-        rising = [roots.rising for roots in self.roots.values()]
+        V, other = zip(*(self.sheets or self.roots).values(), strict=True)
         out = io.BytesIO()
         for array in (
             np.stack([V1, V2, V1_error, V2_error]), np.stack([lower, upper, marginal]),
             np.cumsum([each.shape[-1] for each in V]),
-            np.concatenate(V, axis=-1), np.concatenate(rising, axis=-1), self.undecided, self.spread,
+            np.concatenate(V, axis=-1), np.concatenate(other, axis=-1), self.undecided, self.spread,
         ):  # fmt: skip
             np.save(out, array, allow_pickle=False)
         return out.getvalue()
@@ -87,11 +107,13 @@ class Columns(NamedTuple):
     def from_bytes(cls, data: bytes) -> Columns:
         """The columns that ``to_bytes`` turned into bytes."""
         file = io.BytesIO(data)
-        ends, kinds, stops, V, rising, *others = (np.load(file, allow_pickle=False) for _ in range(7))
-        each = zip(np.split(V, stops[:-1], axis=-1), np.split(rising, len(CONDITIONS), axis=-1), strict=True)
-        roots = {name: Roots(*arrays) for name, arrays in zip(CONDITIONS, each, strict=True)}
+        ends, kinds, stops, V, other, *others = (np.load(file, allow_pickle=False) for _ in range(7))
+        kind, cuts = (Sheets, stops[:-1]) if other.dtype == np.uint8 else (Roots, len(CONDITIONS))
+        each = zip(CONDITIONS, np.split(V, stops[:-1], axis=-1), np.split(other, cuts, axis=-1), strict=True)
+        found: dict[str, Any] = {name: kind(*arrays) for name, *arrays in each}
+        roots, sheets = ({}, found) if kind is Sheets else (found, {})
         (V1, V2, V1_error, V2_error), (lower, upper, marginal) = ends, kinds
-        return cls(Intervals(V1, V2, lower, upper, V1_error, V2_error, marginal), roots, *others)
+        return cls(Intervals(V1, V2, lower, upper, V1_error, V2_error, marginal), roots, sheets, *others)
 
 
 class Finished(NamedTuple):
@@ -108,24 +130,26 @@ def compute(tile: Tile) -> Finished:
     Raises ScanError where the exact critical speeds and the conditions themselves do not agree.
     """
     keep_heap()
-    whole = exact_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model)
-    whole = whole.reshape(5, 4, -1)
+    whole = tile.table()
     table, exact = whole.value, critical(whole)
     mask = violated_between(table, exact, tile.V)
     agreement = check(table, exact, mask, tile.V, tile.above)
     if agreement.largest > AGREEMENT:
         raise _disagreement(agreement)
     notes = {"stable_points": int(np.count_nonzero(mask == 0)), "agreement": agreement}
-    probability, spread = _ensemble(tile) if tile.ensemble else (None, np.empty((*tile.shape[:2], 0)))
+    probability, spread = _ensemble(tile) if tile.ensemble else (None, np.empty((*tile.shape[:-1], 0)))
     chunks = []
     for name in tile.fields:
         chunks += packed(field_values(name, table, tile, mask, probability), tile.chunk)
     columns = b""
     if tile.lowest:
-        of_columns = _columns(whole, exact, spread)
+        of_columns = _columns(whole, exact, spread, tile.whole)
         columns = of_columns.to_bytes()
         notes["intervals"] = of_columns.intervals.V1.shape[-1]
-        notes["most_roots"] = {name: most_roots(roots) for name, roots in of_columns.roots.items()}
+        if tile.whole:
+            notes["sheets"] = max(sheets.V.shape[-1] for sheets in of_columns.sheets.values())
+        else:
+            notes["most_roots"] = {name: most_roots(roots) for name, roots in of_columns.roots.items()}
     return Finished(notes, columns, bundled(chunks))
 
 
@@ -148,7 +172,7 @@ def field_values(
     """A field at a tile's points, from its table (5, 4, cell), mask and probability (cell, V); (λ, σ, V)."""
     field = FIELDS[name]
     out = np.empty(mask.shape, field.dtype)
-    speeds = min(len(tile.V), 256)
+    speeds = -(-len(tile.V) // -(-len(tile.V) // _SPEEDS))  # equal parts, for a short one costs more
     cells = max(1, _POINTS // speeds)
     for i in range(0, len(out), cells):
         part = table[:, :, i : i + cells, np.newaxis]
@@ -163,23 +187,25 @@ def field_values(
 def _ensemble(tile: Tile) -> tuple[NDArray[np.float32], Floats]:
     """The probability at each point (cell, V), and the spread of ``Columns``."""
     assert tile.ensemble is not None
-    n, m, _ = tile.shape
+    assert isinstance(tile.bicycle, Bicycle)
     machines, quantiles = tile.ensemble.machines(tile.bicycle), tile.ensemble.quantiles
-    lam, sigma = np.repeat(tile.lam, m), np.tile(tile.sigma, n)
-    statistics = ensemble_statistics(machines, lam, sigma, tile.V, tile.model, quantiles)
+    statistics = ensemble_statistics(machines, *tile.cells, tile.V, tile.model, quantiles)
     spread = np.column_stack([statistics.somewhere, statistics.unbounded, statistics.V1, statistics.V2])
-    return statistics.probability, spread.reshape(n, m, -1)
+    return statistics.probability, spread.reshape(*tile.shape[:-1], -1)
 
 
-def _columns(table: ExactTable, exact: Critical, spread: Floats) -> Columns:
-    shape = spread.shape[:2]
+def _columns(table: ExactTable, exact: Critical, spread: Floats, in_sheets: bool) -> Columns:
+    shape = spread.shape[:-1]
     intervals = intervals_between(table, exact)
     roots = {}
     for name in CONDITIONS:
         V = exact.speeds[name].T.reshape(*shape, len(exact.speeds[name]))
         roots[name] = Roots(V, (exact.sign[name] < 0).reshape(*shape, 1))
     ends = Intervals(*(field.reshape(*shape, field.shape[-1]) for field in intervals.arrays().values()))
-    return Columns(ends, roots, undecided(exact).reshape(shape), spread)
+    sheets = {}
+    if in_sheets:
+        sheets = {name: sheets_of_planes(name, each, ends) for name, each in roots.items()}
+    return Columns(ends, {} if in_sheets else roots, sheets, undecided(exact).reshape(shape), spread)
 
 
 def _disagreement(agreement: Agreement) -> ScanError:

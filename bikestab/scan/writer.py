@@ -95,10 +95,9 @@ class VolumeWriter:
 
     def write_fields(self, place: tuple[int, ...], shape: tuple[int, ...], chunks: list[memoryview]) -> None:
         """Put a tile's chunks into the fields; ``place`` is its first index, ``shape`` its own."""
-        lead, first = place[:-3], place[-3:]
         ids = {name: self._data[name].id for name in self.plan.fields}
         where = [
-            (*lead, *(i + k for i, k in zip(first, offset, strict=True)))
+            tuple(i + k for i, k in zip(place, offset, strict=True))
             for offset in places(shape, self.plan.chunk)
         ]
         for (name, offset), chunk in zip(product(self.plan.fields, where), chunks, strict=True):
@@ -120,7 +119,7 @@ class VolumeWriter:
             text = f"bound of the error of {name}: the true end for exactly these inputs is within it"
             self._column(f"{name}_error", "interval", np.float64, "m s-1", text)
         text = "what rounding leaves undecided of the number of intervals and of the kinds of their ends"
-        flags(self._create("marginal", ("lam", "sigma"), np.uint8, self.plan.tile[:2], "1", text), MARGINAL)
+        flags(self._create("marginal", ("lam", "sigma"), np.uint8, self.plan.tile[:-1], "1", text), MARGINAL)
         self._counter("root", max(1, sheets), "number of the sheet of roots")
         self.file.create_group("boundary", track_order=True)
         for name in CONDITIONS:
@@ -137,7 +136,7 @@ class VolumeWriter:
             ("probability_somewhere", "share of the ensemble's machines that have a stable speed"),
             ("probability_unbounded", "share of them that are stable without an upper limit"),
         ):
-            self._create(name, ("lam", "sigma"), np.float64, self.plan.tile[:2], "1", text)
+            self._create(name, ("lam", "sigma"), np.float64, self.plan.tile[:-1], "1", text)
         for name in ("V1", "V2"):
             end = "lower" if name == "V1" else "upper"
             text = f"quantiles of the {end} end of the widest stable interval, of machines that have one"
@@ -181,7 +180,7 @@ class VolumeWriter:
         axes = (*self._lead, *axes)
         float_ = np.issubdtype(dtype, np.floating)
         data = self.file.create_dataset(
-            name, tuple(len(self.file[axis]) for axis in axes), dtype, chunks=(1,) * len(self._lead) + chunk,
+            name, tuple(len(self.file[axis]) for axis in axes), dtype, chunks=chunk,
             compression="gzip", compression_opts=1, shuffle=np.dtype(dtype).itemsize > 1, track_order=True,
             fillvalue=np.nan if float_ else None,
         )  # fmt: skip
@@ -192,21 +191,21 @@ class VolumeWriter:
         return data
 
     def _column(self, name: str, last: str, dtype: type, unit: str, text: str) -> h5py.Dataset:
-        chunk = (*self.plan.tile[:2], len(self.file[last]))
+        chunk = (*self.plan.tile[:-1], len(self.file[last]))
         return self._create(name, ("lam", "sigma", last), dtype, chunk, unit, text)
 
     def _write_column(self, name: str, place: tuple[int, ...], values: NDArray) -> None:
         data, empty = self._data[name], np.nan if values.dtype == float else 0
         if np.all(np.isnan(values) if np.isnan(empty) else values == 0):
             return  # a chunk that is not there reads as the fill value
-        (chunk,) = packed(widened(values, data.shape[-1], empty), data.chunks[-3:])
+        (chunk,) = packed(widened(values, data.shape[-1], empty), data.chunks)
         data.id.write_direct_chunk((*place[:-1], 0), chunk)
 
     def _write_designs(self, name: str, place: tuple[int, ...], values: NDArray) -> None:
         """What each (λ, σ) has one of."""
         if values.dtype == np.uint8 and not values.any():
             return
-        (chunk,) = packed(values, self._data[name].chunks[-2:])
+        (chunk,) = packed(values, self._data[name].chunks)
         self._data[name].id.write_direct_chunk(place[:-1], chunk)
 
     def _scale(self, name: str, values: NDArray, unit: str, text: str) -> None:

@@ -45,8 +45,11 @@ def test_types_shapes_and_layout(pair):
     old, new = map(items, pair)
     for name, item in old.items():
         if isinstance(item, h5py.Dataset):
-            for what in ("dtype", "shape", "chunks", "compression", "compression_opts", "shuffle"):
+            for what in ("dtype", "shape", "compression", "compression_opts", "shuffle"):
                 assert getattr(new[name], what) == getattr(item, what), (name, what)
+            if item.chunks:  # machines with small grids have shared them since
+                lead = len(old["/"]["machine"].shape) - 1 if "machine" in old else 0
+                assert new[name].chunks[lead:] == item.chunks[lead:], name
             assert [dim.keys() for dim in new[name].dims] == [dim.keys() for dim in item.dims]
             np.testing.assert_equal(new[name].fillvalue, item.fillvalue)
 

@@ -25,6 +25,7 @@ def plan_of(shape, more=""):
 
 
 SWEEP = "sweep: {delta: [0, 1, 5], m1: [70, 80]}\n"
+SMALL = "sweep: {delta: [0, 1, 5], m1: {start: 70, stop: 80, num: 17}, h1: {start: 0.8, stop: 1, num: 31}}\n"
 PLANS = {
     "one tile": plan_of((4, 5, 6)),
     "two of everything": plan_of((65, 129, 3000), ALL_FIELDS),
@@ -32,6 +33,9 @@ PLANS = {
     "many tilts": plan_of((700, 3, 5)),
     "a border in each": plan_of((70, 300, 333), ALL_FIELDS),
     "sweep": plan_of((70, 130, 40), SWEEP),
+    "sweep of small grids": plan_of((4, 5, 6), SMALL),
+    "sweep of grids of some chunks": plan_of((40, 50, 3), SMALL),
+    "sweep of columns": plan_of((2, 2, 5000), ALL_FIELDS + SMALL),
 }
 
 
@@ -41,9 +45,8 @@ def test_tiles_cover_the_grid_exactly_once(plan):
     axes = [plan.config.grid.values(name) for name in AXES]
     for number in range(len(plan)):
         place, tile = plan.place(number), plan[number]
-        lead, first = place[:-3], place[-3:]
-        seen[lead][tuple(slice(i, i + n) for i, n in zip(first, tile.shape, strict=True))] += 1
-        for values, axis, i in zip((tile.lam, tile.sigma, tile.V), axes, first, strict=True):
+        seen[tuple(slice(i, i + n) for i, n in zip(place, tile.shape, strict=True))] += 1
+        for values, axis, i in zip((tile.lam, tile.sigma, tile.V), axes, place[-3:], strict=True):
             np.testing.assert_array_equal(values, axis[i : i + len(values)])
     assert seen.min() == seen.max() == 1
     assert seen.size == plan.points
@@ -51,10 +54,10 @@ def test_tiles_cover_the_grid_exactly_once(plan):
 
 @pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
 def test_places_are_at_borders_of_chunks(plan):
-    assert plan.tile != plan.chunk or len(plan) == 1
+    assert plan.tile != plan.chunk or len(plan) == 1 or plan.lead
     for number in range(len(plan)):
         place = plan.place(number)
-        assert all(i % n == 0 for i, n in zip(place[-3:], plan.chunk, strict=True))
+        assert all(i % n == 0 for i, n in zip(place, plan.chunk, strict=True))
         assert plan.cell(number) == place[-3:-1]
         assert all(type(i) is int for i in place)
     places = [plan.place(number) for number in range(len(plan))]
@@ -66,17 +69,31 @@ def test_each_column_is_in_one_tile_that_has_it(plan):
     """And that is the tile of the lowest speeds; ``lowest`` finds these, row by row."""
     assert plan.members == int(np.prod(plan.lead))
     having = [number for number in range(len(plan)) if plan[number].lowest]
-    found = [plan.lowest(member) for member in range(plan.members)]
-    assert [number for numbers in found for number in numbers] == having
-    for member, numbers in enumerate(found):
-        assert {plan.member(number) for number in numbers} == {member}
+    if not plan.whole:
+        found = [plan.lowest(member) for member in range(plan.members)]
+        assert [number for numbers in found for number in numbers] == having
+        for member, numbers in enumerate(found):
+            assert {(*plan.members_of(number),) for number in numbers} == {(member,)}
     seen = np.zeros(plan.shape[:-1], int)
     for number in having:
-        *lead, i, j, k = plan.place(number)
-        n, m, _ = plan[number].shape
-        seen[(*lead, slice(i, i + n), slice(j, j + m))] += 1
-        assert k == 0
+        place, shape = plan.place(number), plan[number].shape
+        seen[tuple(slice(i, i + n) for i, n in zip(place[:-1], shape[:-1], strict=True))] += 1
+        assert place[-1] == 0
+        assert plan[number].whole == plan.whole == (shape[-3:-1] == plan.config.grid.shape[:2])
     assert np.all(seen == 1)
+
+
+@pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
+def test_a_tile_has_the_machines_of_its_place(plan):
+    bicycles = [member.bicycle for member in plan.config.members]
+    numbers = np.arange(plan.members).reshape(plan.lead)
+    for number in range(len(plan)):
+        tile, place = plan[number], plan.place(number)
+        own = numbers[tuple(slice(i, i + n) for i, n in zip(place, tile.block, strict=False))]
+        assert list(plan.members_of(number)) == own.ravel().tolist()
+        for name in ("delta", "m1", "h1", "c"):
+            expected = np.array([getattr(bicycles[i], name) for i in own.ravel()])
+            np.testing.assert_array_equal(np.ravel(getattr(tile.bicycle, name)) + 0 * expected, expected)
 
 
 @pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
@@ -85,6 +102,15 @@ def test_a_tile_knows_the_last_speed_of_the_one_before(plan):
     for number in range(len(plan)):
         k, tile = plan.place(number)[-1], plan[number]
         assert tile.above == (V[k - 1] if k else 0)
+
+
+def test_small_grids_share_tiles_and_chunks():
+    plan = PLANS["sweep of small grids"]
+    assert plan.chunk == (1, 8, 31, 4, 5, 6)
+    assert plan.tile == (1, 8, 31, 4, 5, 6)
+    assert PLANS["sweep of grids of some chunks"].tile == (1, 1, 4, 40, 50, 3)
+    columns = PLANS["sweep of columns"]
+    assert (columns.chunk[:3], columns.tile[:3]) == ((1, 1, 1), (1, 1, 15))
 
 
 def test_each_machine_of_a_sweep_has_its_own_tiles():
