@@ -53,7 +53,7 @@ FRONT: Columns = {
 }  # fmt: skip
 _NUMBER = ("float64", "")
 SENSITIVITY: Columns = {
-    "bicycle": _TEXT, "interval": ("int32", "1"), "parameter": _TEXT, "value": _NUMBER, "unit": _TEXT,
+    "interval": ("int32", "1"), "parameter": _TEXT, "value": _NUMBER, "unit": _TEXT,
     "dV1": _NUMBER, "dV2": _NUMBER, "elasticity_V1": ("float64", "1"), "elasticity_V2": ("float64", "1"),
     "change": _NUMBER,
 }  # fmt: skip
@@ -115,6 +115,25 @@ def modes_blocks(modes: Modes) -> Iterator[Block]:
     yield {"V": np.repeat(modes.V, branches), "branch": branch, "name": names, "re": s.real, "im": s.imag}
 
 
+def of_machines(
+    columns: Columns, tables: Sequence[tuple[str, str, Iterable[Block]]]
+) -> tuple[Columns, Iterator[Block]]:
+    """Tables of several machines as one: each a bicycle's name, what was set in it, and its rows.
+
+    Of one machine without anything set it is that table; else the columns ``bicycle`` and ``set`` come first.
+    """
+    if len(tables) == 1 and not tables[0][1]:
+        return columns, iter(tables[0][2])
+
+    def blocks() -> Iterator[Block]:
+        for name, changes, own in tables:
+            for block in own:
+                n = len(next(iter(block.values())))
+                yield {"bicycle": np.full(n, name, object), "set": np.full(n, changes, object), **block}
+
+    return {"bicycle": _TEXT, "set": _TEXT, **columns}, blocks()
+
+
 def front_blocks(front: Sequence[JudgedDesign]) -> Iterator[Block]:
     """The rows of FRONT: one per design, the widest first; a number that is None is missing."""
     yield {
@@ -124,7 +143,7 @@ def front_blocks(front: Sequence[JudgedDesign]) -> Iterator[Block]:
 
 
 def sensitivity_blocks(records: Sequence[Mapping[str, Any]]) -> Iterator[Block]:
-    """The rows of SENSITIVITY from ``design.effects``: one per machine, interval and parameter."""
+    """The rows of SENSITIVITY from ``design.effects``: one per interval and parameter."""
     for record in records:
         for number, interval in enumerate(record["intervals"], 1):
             rows = interval["parameters"]
@@ -134,10 +153,9 @@ def sensitivity_blocks(records: Sequence[Mapping[str, Any]]) -> Iterator[Block]:
                     [row[named.get(name, name)] for row in rows], float if kind == "float64" else object
                 )
                 for name, (kind, _) in SENSITIVITY.items()
-                if name not in ("bicycle", "interval")
+                if name != "interval"
             }
-            first = np.full(len(rows), record["bicycle"], object), np.full(len(rows), number, np.int32)
-            yield {"bicycle": first[0], "interval": first[1], **columns}
+            yield {"interval": np.full(len(rows), number, np.int32), **columns}
 
 
 def _designs(lam: Floats, sigma: Floats, bicycle: Bicycle) -> Block:

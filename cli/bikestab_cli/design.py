@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,13 +17,14 @@ from bikestab_cli.options import (
     Ends,
     check_files,
     json_option,
-    load_bicycle,
-    machine_options,
     told_as_options,
 )
-from bikestab_cli.output import print_json
+from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
+    from bikestab.design.best import Best
+    from bikestab.design.criteria import Wanted
     from bikestab.model import Model
 
 
@@ -72,7 +74,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Intervals count up to here [m/s]; those that start above do not.",
 )
-@machine_options
+@several_machines
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw the (λ, σ) plane as PNG, PDF or SVG.")
 @click.option(
     "--csv", "csv_file", type=FILE, metavar="FILE", help="Write the Pareto front at full precision."
@@ -87,7 +89,8 @@ def command(
     judged: Ends | None,
     stable: Ends | None,
     V_max: float,
-    bicycle_name: str,
+    bicycle_name: tuple[str, ...],
+    changes: Values,
     model: Model,
     delta: float | None,
     output: str | None,
@@ -98,6 +101,9 @@ def command(
 
     The widest interval of stable speeds, the lowest V1, the fastest decay (the lowest growth rate), and the
     Pareto front: designs of which none has both a wider interval and a faster decay than another.
+
+    Several --bicycle and several values of --set give one table, and one picture of their fronts, a curve
+    each.
 
     The search starts from 161 × 161 designs, so a region of allowed designs that is narrower than 1/160 of
     the box can be missed; a smaller box looks closer. The last column says where an optimum lies: at an
@@ -110,46 +116,64 @@ def command(
       bikestab design --lam 10deg:25deg --trail 0.05:0.12 --stable 16km/h:5
       bikestab design --sigma 0.08 --V 4:6 --json
       bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5
+      bikestab design --bicycle meijaard2007 --set mB=60,110 --V 5 -o fronts.png
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
-    from bikestab_cli.design_words import told
+    from bikestab_cli.design_words import told, told_all
 
     from bikestab.design.best import best_designs
     from bikestab.design.criteria import Wanted
-    from bikestab.export.tables import FRONT, front_blocks, save_csv
+    from bikestab.export.tables import FRONT, front_blocks, of_machines, save_csv
     from bikestab.family import Family
     from bikestab.files import to_stdout
 
     if head_angle:
         lam = _tilts(head_angle)
-    bicycle = load_bicycle(bicycle_name, delta)
+    machines = machines_chosen(bicycle_name, delta, changes)
     with told_as_options(judged="--V", V_max="--V-max"):
-        wanted = Wanted(Family(bicycle, model), lam, sigma, trail, V_max, judged, stable, offset)
+        asked = [
+            Wanted(Family(each.bicycle, model), lam, sigma, trail, V_max, judged, stable, offset)
+            for each in machines
+        ]
     if output:
         _check_picture(output, lam, sigma)
     check_files(csv_file, output)
-    best = best_designs(wanted)
+    found = [(machine, wanted, best_designs(wanted)) for machine, wanted in zip(machines, asked, strict=True)]
+    (machine, wanted, best), *others = found
     if not as_json:
-        click.echo(told(wanted, best), err=any(to_stdout(name) for name in (csv_file, output) if name))
+        text = told_all(found) if others else told(wanted, best, machine.changes)
+        click.echo(text, err=any(to_stdout(name) for name in (csv_file, output) if name))
     files = {}
     if csv_file:
-        save_csv(FRONT, front_blocks(best.pareto), csv_file)
-        files["front"] = csv_file
+        blocks = [(each.bicycle.name, each.changes, front_blocks(own.pareto)) for each, _, own in found]
+        save_csv(*of_machines(FRONT, blocks), csv_file)
+        files["csv"] = csv_file
     if output:
-        from bikestab.plot.designs import draw_designs
-        from bikestab.plot.files import save
-        from bikestab.region.curves import trace
-
-        figure = draw_designs(wanted, best, trace(wanted.family, lam, sigma))
-        save(figure, Path(output))
+        _draw(found, output)
         files["picture"] = output
     if as_json:
-        head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta, "lam": lam, "sigma": sigma}
-        head |= {"trail": trail, "offset": offset, "V_max": V_max, "judged": judged, "stable": stable}
-        print_json({**head, **best._asdict(), **files})
+        searched: dict[str, object] = {"lam": lam, "sigma": sigma, "trail": trail, "offset": offset}
+        searched |= {"V_max": V_max, "judged": judged, "stable": stable}
+        results = [[{"searched": searched, **own._asdict()}] for _, _, own in found]
+        print_json(record_of(machines, model, results, files))
     else:
-        for kind, name in files.items():
-            click.echo(f"{kind}: {name}", err=to_stdout(name))
+        for name in files.values():
+            tell_file(name)
+
+
+def _draw(found: Sequence[tuple[Chosen, Wanted, Best]], output: str) -> None:
+    from bikestab.plot.files import save
+
+    if len(found) > 1:
+        from bikestab.plot.fronts import draw_fronts
+
+        save(draw_fronts([(machine.words, wanted, best) for machine, wanted, best in found]), Path(output))
+        return
+    from bikestab.plot.designs import draw_designs
+    from bikestab.region.curves import trace
+
+    _, wanted, best = found[0]
+    save(draw_designs(wanted, best, trace(wanted.family, wanted.x, wanted.y)), Path(output))
 
 
 def _tilts(head_angles: Ends) -> Ends:

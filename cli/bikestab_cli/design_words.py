@@ -3,39 +3,70 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, table
+from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, letter_of, prose, table
 
 if TYPE_CHECKING:
+    from bikestab_cli.several import Chosen
+
     from bikestab.design.best import Best
     from bikestab.design.criteria import Wanted
     from bikestab.design.optimum import JudgedDesign
 
 
-def told(wanted: Wanted, best: Best) -> str:
+def told(wanted: Wanted, best: Best, changes: str) -> str:
     """All that was found, in the order of the questions: what was searched, the optima, the front, notes."""
-    bicycle, (low, high) = wanted.family.bicycle, wanted.box
+    changed = f" ({changes})" if changes else ""
     parts = [
-        f"{heading(bicycle, wanted.family.model)}\n"
-        f"searched: λ = {low[0]:.6g} ... {high[0]:.6g} rad, σ = {low[1]:.6g} ... {high[1]:.6g} "
-        f"(trail {low[1] * bicycle.c:.4f} ... {high[1] * bicycle.c:.4f} m)"
-        + (", offset {:g} ... {:g} m".format(*wanted.offset) if wanted.offset else "")
-        + (f", stable from {wanted.stable[0]:g} to {wanted.stable[1]:g} m/s" if wanted.stable else "")
-        + f"\ndecay: growth rate {_where_judged(wanted)}"
+        f"{heading(wanted.family.bicycle, wanted.family.model)}{changed}\n{_searched(wanted, trail=True)}"
     ]
-    rows = {"own": best.own, "widest interval": best.widest, "lowest V1": best.lowest_V1}
-    rows |= {"fastest decay": best.fastest_decay, "closest": best.closest}
-    listed = {name: design for name, design in rows.items() if design}
+    listed = _optima(best)
     if best.closest:
         parts.append(_nothing(wanted, best.closest))
     if listed:
-        parts.append(_table(wanted, "design", listed))
+        parts.append(_table([(wanted, name, design) for name, design in listed.items()], "design"))
     if best.pareto:
         parts.append("width against decay, from the widest to the fastest:")
-        parts.append(_table(wanted, "front", {str(i): d for i, d in enumerate(best.pareto, 1)}))
+        parts.append(_table([(wanted, str(i), design) for i, design in enumerate(best.pareto, 1)], "front"))
     parts += _notes(wanted, [*listed.values(), *best.pareto], best)
-    return "\n\n".join(parts)
+    return "\n\n".join(map(prose, parts))
+
+
+def told_all(found: Sequence[tuple[Chosen, Wanted, Best]]) -> str:
+    """One table of the optima of several machines, each with a letter."""
+    heads, parts, rows = [], [], []
+    for i, (machine, wanted, best) in enumerate(found):
+        letter = letter_of(i)
+        heads.append(f"{letter}: {machine.words}, damping {machine.bicycle.delta:g} kg m²/s")
+        if best.closest:
+            parts.append(f"{letter}: {_nothing(wanted, best.closest)}")
+        rows += [(wanted, f"{letter} {name}", design) for name, design in _optima(best).items()]
+    wanted = found[0][1]
+    heads.append(f"{wanted.family.model} model\n{_searched(wanted, trail=False)}")
+    if rows:
+        parts.append(_table(rows, "design"))
+    if any(_is_cut(wanted, design) for wanted, _, design in rows):
+        parts.append(_cut_note(wanted))
+    return "\n\n".join(map(prose, ["\n".join(heads), *parts]))
+
+
+def _searched(wanted: Wanted, *, trail: bool) -> str:
+    bicycle, (low, high) = wanted.family.bicycle, wanted.box
+    return (
+        f"searched: λ = {low[0]:.6g} ... {high[0]:.6g} rad, σ = {low[1]:.6g} ... {high[1]:.6g}"
+        + (f" (trail {low[1] * bicycle.c:.4f} ... {high[1] * bicycle.c:.4f} m)" if trail else "")
+        + (", offset {:g} ... {:g} m".format(*wanted.offset) if wanted.offset else "")
+        + (f", stable from {wanted.stable[0]:g} to {wanted.stable[1]:g} m/s" if wanted.stable else "")
+        + f"\ndecay: growth rate {_where_judged(wanted)}"
+    )
+
+
+def _optima(best: Best) -> dict[str, JudgedDesign]:
+    rows = {"own": best.own, "widest interval": best.widest, "lowest V1": best.lowest_V1}
+    rows |= {"fastest decay": best.fastest_decay, "closest": best.closest}
+    return {name: design for name, design in rows.items() if design}
 
 
 def _where_judged(wanted: Wanted) -> str:
@@ -63,21 +94,26 @@ def _nothing(wanted: Wanted, closest: JudgedDesign) -> str:
     )
 
 
-def _table(wanted: Wanted, first: str, designs: dict[str, JudgedDesign]) -> str:
-    head = [first, *DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]", "width [m/s]", "growth [1/s]", "at [m/s]"]
+def _table(designs: Sequence[tuple[Wanted, str, JudgedDesign]], first: str) -> str:
+    """The designs, and where those lie that are not inside the box."""
+    lam, sigma, offset = DESIGN_HEAD
+    head = [first, lam, sigma, f"width [m/s]{offset}", "V1 [m/s]", "V2 [m/s]", "growth [1/s]\nat [m/s]"]
     rows = []
-    for name, d in designs.items():
+    for wanted, name, d in designs:
         ends = [
-            "unbounded" if kind == "unbounded" else f"{V:.6f} ({kind})" if V is not None else "none"
+            "unbounded" if kind == "unbounded" else f"{V:.5f}\n{kind}" if V is not None else "none"
             for V, kind in ((d["V1"], d["lower"]), (d["V2"], d["upper"]))
         ]
-        width = f"{d['width']:.6f}" + ("*" if _is_cut(wanted, d) else " ")
+        width = f"{d['width']:.5f}" + ("*" if _is_cut(wanted, d) else " ")
         rate = "inf" if d["growth_rate"] is None else f"{d['growth_rate']:z.6f}"
         columns = design_columns(d)
-        rows.append([name, *columns, *ends, width, rate, f"{d['V']:.4f}"])
-    places = ["where", *(design["at"] for design in designs.values())]  # words, aligned to the left
-    lines = table(head, rows).split("\n")
-    return "\n".join(f"{line}  {place}".rstrip() for line, place in zip(lines, places, strict=True))
+        rows.append([name, *columns[:2], width + columns[2], *ends, f"{rate}\n{d['V']:.4f}"])
+    places = [f"{name}: {d['at']}" for _, name, d in designs if d["at"] not in ("", "interior")]
+    return "\n".join([table(head, rows, fold=0), *places])
+
+
+def _cut_note(wanted: Wanted) -> str:
+    return f"* the interval goes on above {wanted.V_max:g} m/s, up to which widths count (--V-max)"
 
 
 def _is_cut(wanted: Wanted, design: JudgedDesign) -> bool:
@@ -88,7 +124,7 @@ def _is_cut(wanted: Wanted, design: JudgedDesign) -> bool:
 def _notes(wanted: Wanted, designs: list[JudgedDesign], best: Best) -> list[str]:
     notes = []
     if any(_is_cut(wanted, design) for design in designs):
-        notes.append(f"* the interval goes on above {wanted.V_max:g} m/s, up to which widths count (--V-max)")
+        notes.append(_cut_note(wanted))
     lowest = best.lowest_V1
     if lowest and "shrinks" in lowest["at"]:
         notes.append(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
@@ -12,13 +12,14 @@ from bikestab_cli.options import (
     SPEEDS,
     check_files,
     json_option,
-    load_bicycle,
-    machine_options,
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
+    from bikestab_cli.eigen_words import Followed
+
     from bikestab.model import Model
 
 
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Speeds [m/s] of the table: START:STOP:NUM, such as 0:36km/h:11, or one.",
 )
-@machine_options
+@several_machines
 @click.option(
     "-o",
     "--output",
@@ -48,7 +49,8 @@ if TYPE_CHECKING:
 def command(
     given: Given,
     speeds: list[float],
-    bicycle_name: str,
+    bicycle_name: tuple[str, ...],
+    changes: Values,
     model: Model,
     delta: float | None,
     output: str | None,
@@ -58,8 +60,9 @@ def command(
     """Print or draw the eigenvalues against speed.
 
     At one tilt and trail, the bicycle's own where none is given. Each mode is followed continuously.
-    Files are written in place of the table, and named on stdout. JSON is an object with what vrange says of
-    one design and, at the speeds V, four branches with name, re and im at each.
+    Files are written in place of the table, and named on stdout. Several --bicycle and several values of
+    --set are one table, and one picture of their growth rates, a curve each. JSON has for each what vrange
+    says of a design and, at the speeds V, four branches with name, re and im at each.
 
     The pair that crosses the imaginary axis at an end of the stable speeds is weave, the real eigenvalue that
     crosses zero at one is capsize, and each keeps its name to where it meets another. What makes no end is
@@ -74,13 +77,10 @@ def command(
       bikestab eigen --lam 0.2 --sigma 0.08 --V 0:10:11
       bikestab eigen --head-angle 71deg --offset 45mm --V 0:20mph:5
       bikestab eigen --bicycle meijaard2007 --V 0:36km/h:361 -o modes.png --csv modes.csv
+      bikestab eigen --bicycle meijaard2007 --set mB=60,85,110 -o growth.png
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
-    from bikestab_cli.eigen_words import told
-
-    from bikestab.export.tables import MODES, modes_blocks, save_csv
-    from bikestab.records import design_record, interval_records, modes_record, verdict_record
-    from bikestab.stability import modes, stable_intervals
+    from bikestab_cli.eigen_words import told, told_all
 
     if output and min(speeds) == max(speeds):
         raise click.BadParameter("a picture needs a range, for example 0:10:21", param_hint="--V")
@@ -89,28 +89,63 @@ def command(
             f"{output!r} has no ending, such as .png, .pdf or .svg", param_hint="--output"
         )
     check_files(csv_file, output)
-    bicycle = load_bicycle(bicycle_name, delta)
-    tilt, trail = design_chosen(bicycle, given)
-    with told_as_options():
-        found = modes(bicycle, speeds, tilt, trail, model=model)
-    design = design_record(tilt, trail, bicycle)
-    stable = stable_intervals(bicycle, tilt, trail, model=model)
-    intervals, verdict = interval_records(stable), verdict_record(stable)
+    machines = machines_chosen(bicycle_name, delta, changes)
+    found = [_followed(machine, given, speeds, model) for machine in machines]
     files = {}
     if csv_file:
-        save_csv(MODES, modes_blocks(found), csv_file)
+        _save(found, csv_file)
         files["csv"] = csv_file
     if output:
-        from bikestab.plot.files import save
-        from bikestab.plot.modes import draw_modes
-
-        save(draw_modes(bicycle, tilt, trail, min(speeds), max(speeds), model=model), Path(output))
+        _draw(found, min(speeds), max(speeds), model, output)
         files["picture"] = output
     if as_json:
-        head = {"bicycle": bicycle.name, "model": model, "delta": bicycle.delta}
-        print_json({**head, **design, "intervals": intervals, **verdict, **modes_record(found), **files})
+        print_json(record_of(machines, model, [[_result(each)] for each in found], files))
         return
     for name in files.values():
         tell_file(name)
     if not files:
-        click.echo(told(bicycle, model, design, intervals, verdict, found))
+        click.echo(told(found[0], model) if len(found) == 1 else told_all(found, model))
+
+
+def _followed(machine: Chosen, given: Given, speeds: list[float], model: Model) -> Followed:
+    from bikestab_cli.eigen_words import Followed
+
+    from bikestab.records import design_record, interval_records, verdict_record
+    from bikestab.stability import modes, stable_intervals
+
+    bicycle = machine.bicycle
+    lam, sigma = design_chosen(bicycle, given)
+    with told_as_options():
+        found = modes(bicycle, speeds, lam, sigma, model=model)
+    stable = stable_intervals(bicycle, lam, sigma, model=model)
+    design = design_record(lam, sigma, bicycle)
+    return Followed(machine, design, interval_records(stable), verdict_record(stable), found)
+
+
+def _result(found: Followed) -> dict[str, Any]:
+    from bikestab.records import modes_record
+
+    return {**found.design, "intervals": found.intervals, **found.verdict, **modes_record(found.modes)}
+
+
+def _save(found: list[Followed], name: str) -> None:
+    from bikestab.export.tables import MODES, modes_blocks, of_machines, save_csv
+
+    blocks = [(each.machine.bicycle.name, each.machine.changes, modes_blocks(each.modes)) for each in found]
+    save_csv(*of_machines(MODES, blocks), name)
+
+
+def _draw(found: list[Followed], start: float, stop: float, model: Model, name: str) -> None:
+    from bikestab.plot.files import save
+
+    designs = [(each.machine.bicycle, each.design["lam"], each.design["sigma"]) for each in found]
+    if len(found) == 1:
+        from bikestab.plot.modes import draw_modes
+
+        figure = draw_modes(*designs[0], start, stop, model=model)
+    else:
+        from bikestab.plot.growth import draw_growth
+
+        named = [(each.machine.words, *design) for each, design in zip(found, designs, strict=True)]
+        figure = draw_growth(named, start, stop, model=model)
+    save(figure, Path(name))

@@ -2,34 +2,73 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, table
+from bikestab_cli.output import DESIGN_HEAD, WIDTH, certain, design_columns, heading, prose, table
 
 if TYPE_CHECKING:
-    from bikestab.bicycle import Bicycle
+    from bikestab_cli.several import Chosen
+
     from bikestab.model import Model
     from bikestab.modes import Modes
     from bikestab.records import Design, Interval, Verdict
 
 COLUMNS = ("weave", "capsize", "castering")
+_HEAD = ["V\n[m/s]", *(f"{name}\n[1/s]" for name in (*COLUMNS, "others"))]
 
 
-def told(
-    bicycle: Bicycle, model: Model, design: Design, intervals: list[Interval], verdict: Verdict, modes: Modes
-) -> str:
+class Followed(NamedTuple):
+    """The modes of one machine's design, and its stable speeds."""
+
+    machine: Chosen
+    design: Design
+    intervals: list[Interval]
+    verdict: Verdict
+    modes: Modes
+
+
+def told(found: Followed, model: Model) -> str:
     """The design, its stable speeds, where eigenvalues meet, and the table of eigenvalues."""
-    meetings = "".join(line + "\n" for line in _meetings(modes, max(modes.V)))
-    return "\n".join(
-        [
-            heading(bicycle, model) + "\n",
-            table(DESIGN_HEAD, [design_columns(design)]) + "\n",
-            *([*map(interval_words, intervals)] or ["no stable speed"]),
-            *([f"marginal: {verdict['reason']}"] if verdict["marginal"] else []),
-            meetings,
-            _eigenvalue_table(modes),
-        ]
-    )
+    changed = f" ({found.machine.changes})" if found.machine.set else ""
+    lines = [
+        heading(found.machine.bicycle, model) + changed + "\n",
+        table(DESIGN_HEAD, [design_columns(found.design)]) + "\n",
+        *_stable(found),
+        "".join(line + "\n" for line in _meetings(found.modes, max(found.modes.V))),
+        _narrow(lambda digits: _table([], _rows(found.modes, digits), 4)),
+    ]
+    return prose("\n".join(lines))
+
+
+def told_all(found: Sequence[Followed], model: Model) -> str:
+    """The same of several machines in one table of designs and one of eigenvalues."""
+    designs = [[each.machine.stacked, *design_columns(each.design)] for each in found]
+    notes = [f"{each.machine.words}: {'; '.join(_stable(each))}" for each in found]
+
+    def eigenvalues(digits: int) -> str:
+        rows = []
+        for each in found:
+            own = _rows(each.modes, digits)
+            rows += [[each.machine.stacked if i == 0 else "", *row] for i, row in enumerate(own)]
+        return _table(["machine"], rows, 0)
+
+    designs_table = table(["machine", *DESIGN_HEAD], designs, fold=0)
+    return prose("\n\n".join([f"{model} model", designs_table, "\n".join(notes), _narrow(eigenvalues)]))
+
+
+def _stable(found: Followed) -> list[str]:
+    marginal = [f"marginal: {found.verdict['reason']}"] if found.verdict["marginal"] else []
+    return [*([*map(interval_words, found.intervals)] or ["no stable speed"]), *marginal]
+
+
+def _narrow(text: Callable[[int], str]) -> str:
+    """The text with as many digits, of six, as 80 columns have room for."""
+    for digits in range(6, 0, -1):
+        shown = text(digits)
+        if max(map(len, shown.splitlines())) <= WIDTH:
+            break
+    return shown
 
 
 def interval_words(interval: Interval) -> str:
@@ -64,26 +103,33 @@ def _meetings(modes: Modes, up_to: float) -> list[str]:
     return lines
 
 
-def _eigenvalue_table(modes: Modes) -> str:
+def _table(first: list[str], rows: list[list[str]], fold: int) -> str:
+    """The eigenvalues; the last column is left out where it is empty."""
+    head = [*first, *_HEAD]
+    if not any(row[-1] for row in rows):
+        head, rows, fold = head[:-1], [row[:-1] for row in rows], 0 if first else -1
+    return table(head, rows, fold=None if fold < 0 else fold)
+
+
+def _rows(modes: Modes, digits: int) -> list[list[str]]:
     """A row for each speed, a column for each of the three modes and one for what else there is."""
-    rows = [_row(s, names) for s, names in zip(modes.eigenvalues.T, modes.names.T, strict=True)]
-    head = ["V [m/s]", *(f"{name} [1/s]" for name in COLUMNS), "others [1/s]"]
-    cells = [[f"{V:.6g}", *row] for V, row in zip(modes.V, rows, strict=True)]
-    used = 5 if any(row[-1] for row in rows) else 4
-    return table(head[:used], [row[:used] for row in cells])
+    found = zip(modes.V, modes.eigenvalues.T, modes.names.T, strict=True)
+    return [[f"{V:.6g}", *_row(s, names, digits)] for V, s, names in found]
 
 
-def _row(s: Any, names: Any) -> list[str]:
-    """The eigenvalues at a speed in the columns of their names; those of others have the name behind."""
-    cells = {name: _motion(s[names == name]) for name in dict.fromkeys(names.tolist())}
+def _row(s: Any, names: Any, digits: int) -> list[str]:
+    """The eigenvalues at a speed in the columns of their names; those of others have the name below."""
+    cells = {name: _motion(s[names == name], digits) for name in dict.fromkeys(names.tolist())}
     if "weave" not in cells and "real pair" in cells:
-        cells["weave"] = f"{cells.pop('real pair')} (real pair)"
-    others = [f"{text} ({name})" for name, text in cells.items() if name not in COLUMNS]
-    return [*(cells.get(name, "") for name in COLUMNS), ", ".join(others)]
+        cells["weave"] = f"{cells.pop('real pair')}\n(real pair)"
+    others = [f"{text}\n({name})" for name, text in cells.items() if name not in COLUMNS]
+    return [*(cells.get(name, "") for name in COLUMNS), "\n".join(others)]
 
 
-def _motion(s: Any) -> str:
+def _motion(s: Any, digits: int) -> str:
     """The eigenvalues of one name: pairs as one, real ones each."""
     return ", ".join(
-        f"{x.real:z.6f} ± {x.imag:z.6f}i" if x.imag else f"{x.real:z.6f}" for x in s if x.imag >= 0
+        f"{x.real:z.{digits}f} ± {x.imag:z.{digits}f}i" if x.imag else f"{x.real:z.{digits}f}"
+        for x in s
+        if x.imag >= 0
     )

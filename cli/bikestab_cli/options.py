@@ -51,6 +51,8 @@ class QuantityRange(Quantity):
             self.fail(f"{value!r} is neither a number nor START:STOP:NUM, e.g. 0.05:0.3:6", param, ctx)
         start, stop = (super(QuantityRange, self).convert(part, param, ctx) for part in parts[:2])
         _tell_of_mixed_units(parts[:2], self.units)
+        if parts[2].strip() == "1" and start == stop:
+            return [start]
         if not parts[2].strip().isdecimal() or not 2 <= int(parts[2]) <= MOST_VALUES:
             self.fail(
                 f"{parts[2]!r} in {value!r} is not a number of values from 2 to {MOST_VALUES}", param, ctx

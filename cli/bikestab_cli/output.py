@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -15,7 +16,9 @@ if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
     from bikestab.records import Design
 
-DESIGN_HEAD = ["lam [rad]", "head [°]", "sigma", "trail [m]", "offset [m]"]
+_LEAST = 8  # letters of a column of words
+WIDTH = 80  # columns of a terminal, and of a column in print
+DESIGN_HEAD = ["lam [rad]\nhead [°]", "sigma\ntrail [m]", "\noffset [m]"]
 
 
 def print_json(value: object) -> None:
@@ -31,11 +34,48 @@ def tell_file(name: object, words: str = "") -> None:
     click.echo(f"{name}: {words}" if words else str(name), err=to_stdout(str(name)))
 
 
-def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Columns of text, aligned to the right."""
-    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
-    lines = ("  ".join(cell.rjust(w) for cell, w in zip(row, widths, strict=True)) for row in (head, *rows))
-    return "\n".join(line.rstrip() for line in lines)
+def table(head: Sequence[str], rows: Sequence[Sequence[str]], fold: int | None = None) -> str:
+    """Columns of text, aligned to the right; the lines of a cell are stacked.
+
+    The column ``fold`` is of words: aligned to the left, and wrapped to what the others leave of 80 columns.
+    """
+    cells = [[cell.split("\n") for cell in row] for row in (head, *rows)]
+    widths = [max(len(line) for row in cells for line in row[i]) for i in range(len(head))]
+    if fold is not None:
+        widths[fold] = min(
+            widths[fold], max(WIDTH - sum(widths) - 2 * (len(head) - 1) + widths[fold], _LEAST)
+        )
+        for row in cells:
+            row[fold] = [part for line in row[fold] for part in _wrapped(line, widths[fold])]
+    lines = []
+    for row in cells:
+        for parts in zip_longest(*row, fillvalue=""):
+            shown = [
+                t.ljust(w) if i == fold else t.rjust(w)
+                for i, (t, w) in enumerate(zip(parts, widths, strict=True))
+            ]
+            lines.append("  ".join(shown).rstrip())
+    return "\n".join(lines)
+
+
+def _wrapped(line: str, width: int) -> list[str]:
+    """A line in parts of at most ``width`` letters, broken at blanks, or behind a slash or hyphen."""
+    if len(line) <= width:
+        return [line]
+    import textwrap  # few tables need it
+
+    return textwrap.wrap(line, width) or [""]
+
+
+def prose(text: str) -> str:
+    """Lines of words, each wrapped to 80 columns, and indented where it goes on; no number is cut off."""
+    import re
+    import textwrap
+
+    tied = re.sub(r" (?==|\.\.\.|m/s|rad|1/s|kg)|(?<==) |(?<=\.\.\.) ", "\N{NO-BREAK SPACE}", text)
+    style: Any = {"subsequent_indent": "  ", "break_long_words": False, "break_on_hyphens": False}
+    lines = (line if len(line) <= WIDTH else textwrap.fill(line, WIDTH, **style) for line in tied.split("\n"))
+    return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")
 
 
 def certain(value: float, error: float | None, most: int = 12, style: str = "f") -> str:
@@ -54,14 +94,23 @@ def certain(value: float, error: float | None, most: int = 12, style: str = "f")
     return f"about {value:.6g}"
 
 
+def letter_of(number: int) -> str:
+    """A, B, ..., Z, AA, AB, ...: what stands for the machine of this number, from 0, in a table."""
+    return (letter_of(number // 26 - 1) if number >= 26 else "") + chr(ord("A") + number % 26)
+
+
+def within(value: float, letters: int) -> str:
+    """A number in at most so many letters, of six digits where there is room for them."""
+    texts = (f"{value:.{digits}g}" for digits in range(6, 0, -1))
+    return next((text for text in texts if len(text) <= letters), f"{value:.1g}")
+
+
 def design_columns(design: Design) -> list[str]:
-    """λ, head angle, σ, trail and fork offset as they stand in every table."""
+    """λ and σ, and below them head angle, trail and fork offset, as they stand in every table."""
     return [
-        f"{design['lam']:.6g}",
-        f"{design['head_angle_deg']:.3f}",
-        f"{design['sigma']:.6g}",
-        f"{design['trail']:.4f}",
-        f"{design['offset']:z.4f}",
+        f"{within(design['lam'], 9)}\n{design['head_angle_deg']:.3f}",
+        f"{within(design['sigma'], 9)}\n{design['trail']:.4f}",
+        f"\n{design['offset']:z.4f}",
     ]
 
 
@@ -69,7 +118,7 @@ def heading(bicycle: Bicycle, model: str) -> str:
     """What every table is of."""
     context = click.get_current_context(silent=True)
     default = context and context.get_parameter_source("bicycle_name") == click.core.ParameterSource.DEFAULT
-    whose = " (the paper's bicycle, as no --bicycle is given)" if default else ""
+    whose = " (no --bicycle: the paper's)" if default else ""
     return f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s{whose}"
 
 

@@ -9,17 +9,14 @@ from typing import TYPE_CHECKING, Any
 import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
 from bikestab_cli.options import (
-    DEFAULT_BICYCLE,
     FILE,
-    NAME,
     check_files,
-    equation_options,
     json_option,
-    load_bicycle,
     sd_option,
     told_as_options,
 )
-from bikestab_cli.output import print_json
+from bikestab_cli.output import print_json, prose, tell_file
+from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
     from bikestab.design.sensitivity import Hold
@@ -33,12 +30,7 @@ if TYPE_CHECKING:
     help="What stays where tilt, wheelbase or front radius vary.  [default: the trail of the 25 parameters, "
     "σ in the paper's notation]",
 )  # fmt: skip
-@click.option(
-    "--bicycle", "bicycle_names", type=NAME, metavar="NAME|FILE", multiple=True,
-    help="A bicycle that comes with bikestab, or a file of one; several side by side."
-    f"  [default: {DEFAULT_BICYCLE}]",
-)  # fmt: skip
-@equation_options
+@several_machines
 @sd_option
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw the effects as bars: PNG, PDF or SVG.")
 @click.option("--csv", "csv_file", type=FILE, metavar="FILE", help="Write all rows at full precision.")
@@ -46,7 +38,8 @@ if TYPE_CHECKING:
 def command(
     given: Given,
     hold: Hold | None,
-    bicycle_names: tuple[str, ...],
+    bicycle_name: tuple[str, ...],
+    changes: Values,
     model: Model,
     delta: float | None,
     deviations: tuple[bool, dict[str, float]],
@@ -58,8 +51,8 @@ def command(
 
     The derivatives are exact: of the condition that is zero at the end of the stable interval, by forward
     propagation through the equations. Rows are sorted by the larger elasticity, per cent of a speed for one
-    per cent of the parameter. Several --bicycle are put side by side by these, in the paper's notation where
-    theirs differ.
+    per cent of the parameter. Several --bicycle, and several values of --set, are put side by side by these,
+    in the paper's notation where theirs differ.
 
     --hold says which frame is meant: with the trail held a steeper head angle needs another fork; with the
     offset held the fork stays, and the trail follows tilt and front wheel; σ held is a trail that
@@ -77,6 +70,7 @@ def command(
       bikestab sensitivity --bicycle meijaard2007 --head-angle 71deg --trail 55mm
       bikestab sensitivity --bicycle meijaard2007 -o tornado.png
       bikestab sensitivity --bicycle meijaard2007 --bicycle sharp1971
+      bikestab sensitivity --bicycle meijaard2007 --set mB=60,85,110
       bikestab sensitivity --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
     """
     from bikestab_cli.sensitivity_words import side_by_side, told
@@ -85,13 +79,13 @@ def command(
     from bikestab.design.effects import sensitivity_record
     from bikestab.design.sensitivity import sensitivity, two_parts
     from bikestab.design.spread import own_spread, plain
-    from bikestab.export.tables import SENSITIVITY, save_csv, sensitivity_blocks
+    from bikestab.export.tables import SENSITIVITY, of_machines, save_csv, sensitivity_blocks
 
-    bicycles = [load_bicycle(name, delta) for name in bicycle_names or (DEFAULT_BICYCLE,)]
+    machines = machines_chosen(bicycle_name, delta, changes)
+    bicycles = [each.bicycle for each in machines]
     check_files(csv_file, output)
-    if (
-        len({bicycle.bodies is None for bicycle in bicycles}) > 1
-    ):  # c is the trail in one, the wheelbase in the other
+    if len({bicycle.bodies is None for bicycle in bicycles}) > 1:
+        # c is the trail in one notation, and the wheelbase in the other
         bicycles = [two_parts(bicycle) for bicycle in bicycles]
     with told_as_options():
         found = [
@@ -105,29 +99,41 @@ def command(
         for each, known in zip(found, spreads, strict=True)
     ]
     if csv_file:
-        save_csv(SENSITIVITY, sensitivity_blocks(records), csv_file)
+        blocks = [
+            (each.bicycle.name, each.changes, sensitivity_blocks([r]))
+            for each, r in zip(machines, records, strict=True)
+        ]
+        save_csv(*of_machines(SENSITIVITY, blocks), csv_file)
     if output:
-        _draw(records, output)
-    files = {kind: name for kind, name in (("table", csv_file), ("picture", output)) if name}
+        _draw(machines, records, output)
+    files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if as_json:
-        print_json({"results": records, **files})
+        print_json(record_of(machines, model, [[_result(record)] for record in records], files))
         return
-    click.echo(told(found[0], records[0]) if len(found) == 1 else side_by_side(found, records))
+    if len(found) == 1:
+        click.echo(told(found[0], records[0], machines[0].changes))
+    else:
+        click.echo(side_by_side(found, records, machines))
     for each, known in zip(found, spreads, strict=True):
         if known:
-            click.echo(f"\n{each.bicycle.name}, {told_spread(known)}")
-    for kind, name in files.items():
-        click.echo(f"{kind}: {name}")
+            click.echo(prose(f"\n{each.bicycle.name}, {told_spread(known)}"))
+    for name in files.values():
+        tell_file(name)
 
 
-def _draw(records: Sequence[Mapping[str, Any]], output: str) -> None:
+def _result(record: Mapping[str, Any]) -> dict[str, Any]:
+    """What is of one result; the rest is said of all."""
+    return {key: value for key, value in record.items() if key not in ("bicycle", "model", "delta")}
+
+
+def _draw(machines: Sequence[Chosen], records: Sequence[Mapping[str, Any]], output: str) -> None:
     """The effects on each machine's widest stable interval."""
     from bikestab.design.effects import width
     from bikestab.plot.files import save
     from bikestab.plot.tornado import draw_tornado
 
-    machines = []
-    for record in records:
+    panels = []
+    for machine, record in zip(machines, records, strict=True):
         widest: Any = max(record["intervals"], key=width, default={"parameters": []})
-        machines.append((record["bicycle"], widest["parameters"]))
-    save(draw_tornado(machines), Path(output))
+        panels.append((machine.words, widest["parameters"]))
+    save(draw_tornado(panels), Path(output))

@@ -6,9 +6,11 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from bikestab_cli.output import design_columns, heading, table
+from bikestab_cli.output import design_columns, heading, letter_of, prose, table
 
 if TYPE_CHECKING:
+    from bikestab_cli.several import Chosen
+
     from bikestab.design.effects import Row, Tried
     from bikestab.design.sensitivity import Sensitivity
     from bikestab.records import Interval
@@ -22,9 +24,10 @@ _HELD = {
 }
 
 
-def told(found: Sensitivity, record: Mapping[str, Any]) -> str:
+def told(found: Sensitivity, record: Mapping[str, Any], changes: str) -> str:
     """One machine: what the design is, a table for each stable interval, and what it says in words."""
-    parts = [f"{heading(found.bicycle, found.model)}\n{_design(found)}\n{_HELD[found.hold]}"]
+    changed = f" ({changes})" if changes else ""
+    parts = [f"{heading(found.bicycle, found.model)}{changed}\n{_design(found)}\n{_HELD[found.hold]}"]
     for interval in record["intervals"]:
         rows = interval["parameters"]
         parts.append(f"stable from {_ends(interval)}")
@@ -35,14 +38,14 @@ def told(found: Sensitivity, record: Mapping[str, Any]) -> str:
         parts.append("no stable speed, and so no end of one to move; 'bikestab vrange' says what is nearest")
     parts.append(_decay(found))
     parts.append("computed anew, not by derivatives:\n" + _tried(record["tried"], record["intervals"]))
-    return "\n\n".join(part for part in parts if part)
+    return "\n\n".join(prose(part) for part in parts if part)
 
 
 def _design(found: Sensitivity) -> str:
     from bikestab.records import design_record
 
     design = design_record(found.lam, found.sigma, found.bicycle)
-    lam, head, sigma, trail, offset = design_columns(design)
+    (lam, head), (sigma, trail), (_, offset) = (cell.split("\n") for cell in design_columns(design))
     return f"λ = {lam} rad, σ = {sigma}\nhead angle {head}°, trail {trail} m, offset {offset} m"
 
 
@@ -130,14 +133,17 @@ def _interval(interval: Interval | None) -> list[str]:
     return [f"{interval['V1']:.3f}", f"{interval['V2']:.3f}", f"{interval['V2'] - interval['V1']:.3f}"]
 
 
-def side_by_side(found: Sequence[Sensitivity], records: Sequence[Mapping[str, Any]]) -> str:
+def side_by_side(
+    found: Sequence[Sensitivity], records: Sequence[Mapping[str, Any]], machines: Sequence[Chosen]
+) -> str:
     """The elasticities of several machines' widest intervals, what matters most to any of them first."""
     parts = []
     for start in range(0, len(found), _FEW):
         heads = []
         for i, each in enumerate(found[start : start + _FEW], start):
-            head = f"{chr(ord('A') + i)}: {heading(each.bicycle, each.model)}, {each.hold} held"
-            heads.append(f"{head}\n   {_summary(records[i])}")
+            head = f"{letter_of(i)}: {heading(each.bicycle, each.model)}, {each.hold} held"
+            head += f", {machines[i].changes}" if machines[i].set else ""
+            heads.append(prose(f"{head}\n   {_summary(records[i])}"))
         parts += ["\n".join(heads), _elasticities(records[start : start + _FEW], start)]
     parts.append("%/%: per cent of the speed for one per cent of the parameter")
     return "\n\n".join(parts)
@@ -161,7 +167,7 @@ def _elasticities(records: Sequence[Mapping[str, Any]], start: int) -> str:
 
     head = ["%/%"]
     for i in range(len(records)):
-        head += [f"{chr(65 + start + i)}: V1", "V2"]
+        head += [f"{letter_of(start + i)}: V1", "V2"]
     rows = []
     for name in sorted(names, key=size, reverse=True):
         cells = [name]

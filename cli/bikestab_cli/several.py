@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
@@ -27,9 +27,19 @@ class Chosen(NamedTuple):
     set: dict[str, float]
 
     @property
+    def changes(self) -> str:
+        """What is set, in words."""
+        return " ".join(f"{name}={value:g}" for name, value in self.set.items())
+
+    @property
     def words(self) -> str:
         """What tells it from the others."""
-        return " ".join([self.bicycle.name, *(f"{name}={value:g}" for name, value in self.set.items())])
+        return f"{self.bicycle.name} {self.changes}".strip()
+
+    @property
+    def stacked(self) -> str:
+        """The same in a table's cell."""
+        return f"{self.bicycle.name}\n{self.changes}".strip()
 
 
 def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> Values:
@@ -82,3 +92,27 @@ def machines_chosen(names: tuple[str, ...], delta: float | None, changes: Values
                 warn(bicycle)
             machines.append(Chosen(bicycle, values))
     return machines
+
+
+def record_of(
+    machines: Sequence[Chosen], model: str, results: Sequence[Sequence[Mapping[str, Any]]],
+    files: Mapping[str, str] | None = None,
+) -> dict[str, Any]:  # fmt: skip
+    """What --json prints of machines and the results of each: docs/json.md has the shape.
+
+    Of several machines, and of one with other values, each result tells which it is of.
+    """
+    several = len(machines) > 1 or machines[0].set
+    listed = []
+    for machine, own in zip(machines, results, strict=True):
+        whose = {"bicycle": machine.bicycle.name, "set": machine.set} if several else {}
+        listed += [{**whose, **result} for result in own]
+    bicycles = [each.bicycle for each in machines]
+    names, deltas = ([*dict.fromkeys(x)] for x in ([b.name for b in bicycles], [b.delta for b in bicycles]))
+    return {
+        "bicycle": names[0] if len(names) == 1 else names,
+        "model": model,
+        "delta": deltas[0] if len(deltas) == 1 else deltas,
+        "results": listed,
+        **({"files": dict(files)} if files else {}),
+    }

@@ -1,0 +1,111 @@
+"""The picture of several machines' stable speeds: V1 and V2 over one range of designs, or a bar for each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from bikestab.plot.headings import set_title, short
+from bikestab.plot.lines import entry, legend_below
+from bikestab.plot.settings import own_settings
+from bikestab.plot.sidelabels import Line, label_right, lines_for
+
+Run = list[tuple[Mapping[str, Any], Mapping[str, Any]]]  # answers, each with one of its intervals
+Answers = Sequence[Mapping[str, Any]]  # as region.answers gives them: one for each design
+AXES = {
+    "lam": "tilt of the steering axis λ [rad]", "sigma": "trail divided by the wheelbase σ",
+    "head_angle_deg": "head angle [°]", "trail": "trail [m]", "offset": "fork offset b [m]",
+}  # fmt: skip
+_BEYOND = 1.25  # where what is unbounded ends in the picture, of the largest end
+
+
+@own_settings()
+def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str) -> Figure:
+    """Machines by name with their designs' stable speeds; ``axis``, of AXES, is what varies, or empty.
+
+    Raises InputError for more machines than there are lines that differ.
+    """
+    lines = lines_for(len(machines))
+    ends = [V for _, answers in machines for a in answers for i in a["intervals"] for V in (i["V1"], i["V2"])]
+    top = _BEYOND * max((V for V in ends if V is not None), default=10.0)
+    figure = Figure(figsize=(8.2, 5.2 if axis else 1.6 + 0.42 * max(len(machines), 3)), layout="constrained")
+    ax = figure.add_subplot()
+    ax.tick_params(direction="in", top=True, right=True)
+    if axis:
+        _over(ax, machines, axis, lines, top)
+        legend_below(figure, [entry("V₁", color="0.3"), entry("V₂", color="0.3", lw=0.9)])
+    else:
+        _bars(ax, machines, lines, top)
+    set_title(ax, "Stable speeds" + ("" if any(V is not None for V in ends) else ": none"))
+    return figure
+
+
+def _over(
+    ax: Axes, machines: Sequence[tuple[str, Answers]], axis: str, lines: Sequence[Line], top: float
+) -> None:
+    """V1 (thick) and V2 (thin) against one quantity, shaded between; each run of intervals of one kind."""
+    last = []
+    for (_, answers), line in zip(machines, lines, strict=True):
+        place = (math.nan, 0.0)
+        for run in _runs(answers):
+            x = [answer[axis] for answer, _ in run]
+            V1 = [interval["V1"] for _, interval in run]
+            V2 = [top if interval["V2"] is None else interval["V2"] for _, interval in run]
+            ax.fill_between(x, V1, V2, color=line.color, alpha=0.15, lw=0)
+            ax.plot(x, V1, color=line.color, ls=line.ls, lw=2.2)
+            ax.plot(x, [V if top > V else math.nan for V in V2], color=line.color, ls=line.ls, lw=1.0)
+            if not x[-1] <= place[0]:
+                place = (x[-1], V1[-1])
+        last.append(place)
+    values = [answer[axis] for _, answers in machines for answer in answers]
+    ax.set_xlim(min(values), max(values))
+    ax.set_ylim(0, top)
+    ax.set_xlabel(AXES[axis])
+    ax.set_ylabel("speed V [m/s]")
+    names = [name if x == x else f"{name}: never" for (name, _), (x, _) in zip(machines, last, strict=True)]
+    ends = [(max(values), 0.0) if x != x else (x, V) for x, V in last]
+    label_right(ax, names, [x for x, _ in ends], [y for _, y in ends], [line.color for line in lines])
+
+
+def _runs(answers: Answers) -> list[Run]:
+    """Intervals of neighbouring designs that go on into each other: they overlap, and end in the same way."""
+    done: list[Run] = []
+    open_: list[Run] = []
+    for answer in answers:
+        going_on = []
+        for interval in answer["intervals"]:
+            run: Run = next((run for run in open_ if _goes_on(run[-1][1], interval)), [])
+            if run:
+                open_.remove(run)
+            going_on.append([*run, (answer, interval)])
+        done += open_
+        open_ = going_on
+    return done + open_
+
+
+def _goes_on(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
+    inf = math.inf
+    overlap = min(before["V2"] or inf, after["V2"] or inf) > max(before["V1"], after["V1"])
+    return overlap and before["lower"] == after["lower"] and (before["V2"] is None) == (after["V2"] is None)
+
+
+def _bars(ax: Axes, machines: Sequence[tuple[str, Answers]], lines: Sequence[Line], top: float) -> None:
+    for row, ((_, answers), line) in enumerate(zip(machines, lines, strict=True)):
+        intervals = answers[0]["intervals"]
+        for interval in intervals:
+            V1, V2 = interval["V1"], interval["V2"]
+            end = top if V2 is None else V2
+            ax.barh(row, end - V1, left=V1, height=0.5, color=line.color, alpha=0.45)
+            words = f"{V1:.2f} {interval['lower']}"
+            words += f" … {interval['upper']} {V2:.2f}" if V2 is not None else " … no upper limit"
+            ax.annotate(words, (V1, row), (0, 15), textcoords="offset points", fontsize=8, va="center")
+        if not intervals:
+            ax.annotate("no stable speed", (0, row), (6, 0), textcoords="offset points", va="center")
+    ax.set_yticks(range(len(machines)), [short(name) for name, _ in machines], parse_math=False)
+    ax.set_ylim(len(machines) - 0.5, -0.7)
+    ax.set_xlim(0, top)
+    ax.set_xlabel("speed V [m/s]")

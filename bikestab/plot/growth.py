@@ -1,0 +1,71 @@
+"""The picture of several machines' growth rates against speed, a curve each; stable speeds are below zero."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, NullLocator
+
+from bikestab.bicycle import Bicycle
+from bikestab.model import Model, exact_table
+from bikestab.plot.headings import set_title
+from bikestab.plot.settings import own_settings
+from bikestab.plot.sidelabels import label_right, lines_for
+from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import intervals_of
+
+_SAMPLES = 601
+_LINEAR = 1.0  # 1/s: below it the scale is linear, where stability is decided
+
+
+@own_settings()
+def draw_growth(
+    machines: Sequence[tuple[str, Bicycle, float, float]],
+    start: float,
+    stop: float,
+    *,
+    model: Model = "refined",
+) -> Figure:
+    """Machines by name, each at a tilt λ [rad] and a trail σ [1], at speeds from ``start`` to ``stop`` [m/s].
+
+    Raises InputError for more machines than there are lines that differ.
+    """
+    lines = lines_for(len(machines))
+    figure = Figure(figsize=(8.2, 5.2), layout="constrained")
+    ax = figure.add_subplot()
+    ends, low, high = [], 0.0, 0.0
+    for (_, bicycle, lam, sigma), line in zip(machines, lines, strict=True):
+        table = exact_table(bicycle, lam, sigma, model=model)
+        found = intervals_of(table)
+        edges = np.concatenate([found.V1[: found.number], found.V2[: found.number]])
+        edges = edges[(edges > start) & (edges < stop)]
+        V = np.union1d(np.linspace(start, stop, _SAMPLES), edges)
+        rate = growth_rate_of(table, V)
+        rate[np.isin(V, edges)] = 0.0
+        shown = rate[np.isfinite(rate)]
+        low, high = min(low, float(shown.min(initial=0))), max(high, float(shown.max(initial=0)))
+        ax.plot(V, np.where(np.isfinite(rate), rate, np.nan), color=line.color, ls=line.ls, lw=1.2)
+        ax.plot(V, np.where(rate <= 0, rate, np.nan), color=line.color, ls=line.ls, lw=3)
+        ax.plot(edges, np.zeros(len(edges)), "o", ms=5, mfc="white", mec=line.color, mew=1.4, zorder=4)
+        ends.append(float(rate[-1]) if math.isfinite(rate[-1]) else 0.0)
+    ax.axhline(0, color="k", lw=0.8, zorder=1)
+    ax.set_xlim(start, stop)
+    ax.set_yscale("asinh", linear_width=_LINEAR)
+    steps = [sign * step for step in (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100) for sign in (-1, 1)]
+    ax.yaxis.set_major_locator(FixedLocator([0.0, *steps]))
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.yaxis.set_major_formatter(lambda tick, _: f"{tick:g}".replace("-", "−"))
+    ax.set_ylim(1.15 * min(low, -0.1), 1.1 * max(high, 0.1))
+    ax.set_xlabel("speed V [m/s]")
+    ax.set_ylabel(f"growth rate [s⁻¹]  (scale logarithmic beyond ±{_LINEAR:g})")
+    ax.tick_params(direction="in", top=True, right=True)
+    label_right(ax, [name for name, *_ in machines], [stop] * len(ends), ends, [line.color for line in lines])
+    set_title(
+        ax,
+        "Largest real part of the eigenvalues; thick below zero: stable"
+        + ("" if model == "refined" else f", {model} model"),
+    )
+    return figure

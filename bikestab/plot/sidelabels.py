@@ -1,0 +1,85 @@
+"""Names of curves at the right edge of a picture, apart from each other, tied to where the curves end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from bikestab.errors import InputError
+from bikestab.model import Floats
+from bikestab.plot.headings import short
+
+# Tol 2021, bright, without its grey; behind the last the dashes change
+COLOURS = ("#4477AA", "#EE6677", "#228833", "#AA3377", "#CCBB44", "#66CCEE")
+DASHES = ("-", (0, (5, 1.5)), (0, (1, 1.2)), (0, (4, 1.2, 1, 1.2)))
+MOST = len(COLOURS) * len(DASHES)
+_APART = 0.042  # of the axes' height: a line of text
+
+
+class Line(NamedTuple):
+    """What a curve looks like."""
+
+    color: str
+    ls: object
+
+
+def lines_for(number: int) -> list[Line]:
+    """As many kinds of lines that differ. Raises InputError where there are too many to tell apart."""
+    if number > MOST:
+        raise InputError(f"{number} curves in one picture cannot be told apart", hint=f"allowed: {MOST}")
+    return [Line(COLOURS[i % len(COLOURS)], DASHES[i // len(COLOURS)]) for i in range(number)]
+
+
+def label_right(
+    ax: Axes, names: Sequence[str], x: Sequence[float], y: Sequence[float], colors: Sequence[str]
+) -> None:
+    """Write each name to the right of the axes, with a line to its curve's end (x, y) in the data.
+
+    The limits and scales of the axes are those that stay.
+    """
+    at = (ax.transData + ax.transAxes.inverted()).transform(np.column_stack([x, y]))
+    places = spread(np.clip(at[:, 1], 0, 1), _APART)
+    for name, end, place, color in zip(names, at, places, colors, strict=True):
+        ax.annotate(
+            short(name), (float(np.clip(end[0], 0, 1)), float(np.clip(end[1], 0, 1))), (1.03, float(place)),
+            xycoords="axes fraction", textcoords="axes fraction", va="center", fontsize=9, color=_dark(color),
+            arrowprops={"arrowstyle": "-", "color": color, "lw": 0.8, "ls": ":", "shrinkA": 1, "shrinkB": 0},
+            annotation_clip=False, parse_math=False,
+        )  # fmt: skip
+
+
+def spread(wanted: Floats, apart: float) -> Floats:
+    """Places near those that are wanted, in their order, none closer than ``apart``: least squares.
+
+    Neighbours that are too close become blocks around their mean, which merge where they meet.
+    """
+    order = np.argsort(wanted, kind="stable")
+    blocks: list[list[float]] = []  # each: sum of wanted starts, number
+    for place in wanted[order]:
+        blocks.append([float(place), 1])
+        while (
+            len(blocks) > 1 and _start(blocks[-1], apart) < _start(blocks[-2], apart) + apart * blocks[-2][1]
+        ):
+            total, number = blocks.pop()
+            first = blocks[-1]
+            first[0] += total - apart * first[1] * number
+            first[1] += number
+    sorted_ = np.concatenate(
+        [_start(block, apart) + apart * np.arange(int(block[1])) for block in blocks] or [np.empty(0)]
+    )
+    places = np.empty(len(wanted))
+    places[order] = sorted_
+    return places
+
+
+def _start(block: list[float], apart: float) -> float:
+    """Where a block of places starts whose members want to be, on the mean, at its first one's place."""
+    return block[0] / block[1]
+
+
+def _dark(color: str) -> tuple[float, ...]:
+    rgb = np.array([int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)])
+    return tuple(rgb * min(1.0, 0.5 / float(rgb @ (0.299, 0.587, 0.114))))

@@ -1,0 +1,115 @@
+"""Stable speeds in words and tables."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, prose, table
+
+if TYPE_CHECKING:
+    from bikestab_cli.several import Chosen
+
+    from bikestab.bicycle import Bicycle
+    from bikestab.design.spread import Spread
+    from bikestab.model import Model
+    from bikestab.region.answers import Answer
+
+_HEAD = [*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"]
+_FEWER = 9  # digits behind the point where machines stand beside them
+
+
+class Found(NamedTuple):
+    """A machine, its designs' stable speeds, and how far they are known where that is asked for."""
+
+    machine: Chosen
+    answers: list[Answer]
+    spreads: list[Spread]
+
+
+def told_one(found: Found, model: Model, single: bool) -> str:
+    """The table of one machine, what is open in it, and what would help a ``single`` unstable design."""
+    from bikestab_cli.spread_words import in_one_line
+
+    machine, answers, spreads = found
+    changed = f" ({machine.changes})" if machine.set else ""
+    parts = [heading(machine.bicycle, model) + changed + "\n", table(_HEAD, _rows(answers, 12))]
+    notes = [f"marginal at {_design(each)}: {each['reason']}" for each in answers if each["marginal"]]
+    for answer, known in zip(answers, spreads, strict=False):
+        notes.append(("" if single else f"{_design(answer)}: ") + in_one_line(known))
+    if single and answers[0]["nearest"]:
+        notes.append("\n" + _advice(answers[0], machine.bicycle, model))
+    return "\n".join([*parts, *map(prose, notes)])
+
+
+def told_all(found: list[Found], model: Model) -> str:
+    """One table of several machines, and what is open in it."""
+    from bikestab_cli.spread_words import in_one_line
+
+    rows, notes = [], []
+    for machine, answers, spreads in found:
+        lines = _rows(answers, _FEWER)
+        rows += [[machine.stacked if i == 0 else "", *line] for i, line in enumerate(lines)]
+        open_ = [(answer, f"marginal: {answer['reason']}") for answer in answers if answer["marginal"]]
+        known = [(answer, in_one_line(each)) for answer, each in zip(answers, spreads, strict=False)]
+        notes += [f"{machine.words} at {_design(answer)}: {text}" for answer, text in (*open_, *known)]
+    return "\n".join([f"{model} model\n", table(["machine", *_HEAD], rows, fold=0), *map(prose, notes)])
+
+
+def _design(answer: Answer) -> str:
+    return f"λ = {answer['lam']:.6g}, σ = {answer['sigma']:.6g}"
+
+
+def _rows(answers: list[Answer], digits: int) -> list[list[str]]:
+    rows = []
+    for result in answers:
+        design = design_columns(result)
+        for interval in result["intervals"]:
+            V1 = f"{certain(interval['V1'], interval['V1_error'], digits)}\n{interval['lower']}"
+            V2 = interval["upper"]
+            if interval["V2"] is not None:
+                V2 = f"{certain(interval['V2'], interval['V2_error'], digits)}\n{V2}"
+            rows.append([*design, V1, V2])
+            design = [""] * len(design)
+        if not result["intervals"]:
+            rows.append([*design, "no stable speed", ""])
+    return rows
+
+
+def _advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
+    """What would help, and what was searched for it; designs are rounded so that they can be typed in."""
+    from bikestab.family import Family
+    from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, rounded
+
+    family = Family(bicycle, model)
+    nearest: Any = answer["nearest"]  # read by computed keys
+    lam, sigma = answer["lam"], answer["sigma"]
+    trails = []
+    for key, way, side in (("sigma_min", 1, "above"), ("sigma_max", -1, "below")):
+        if nearest[key] is None:
+            trails.append(f"none {side}")
+        else:
+            text = rounded(lambda value: family.table(lam, value), nearest[key], way)
+            trails.append(f"σ = {text} {side} (trail {float(text) * bicycle.c:.4f} m)")
+    angles = "none"
+    if nearest["lam_min"] is not None:
+        ends = [
+            rounded(lambda value: family.table(value, sigma), nearest[key], way)
+            for key, way in (("lam_min", 1), ("lam_max", -1))
+        ]
+        angles = "λ = {} ... {} rad".format(*ends)
+        angles += " (head angle {:.2f} ... {:.2f}°)".format(*(90 - math.degrees(float(end)) for end in ends))
+    lines = [
+        f"nearest stable speed at this λ: {', '.join(trails)}",
+        f"nearest stable speed at this σ: {angles}",
+        f"searched: σ = {_span(SIGMA_RANGE)}, λ = {_span(LAM_RANGE)} rad, V = 0 ... {V_MAX:g} m/s",
+    ]
+    if nearest["V"] is not None:
+        lines.append(
+            f"least unstable at {nearest['V']:.3f} m/s, where it grows at {nearest['growth_rate']:.4g} 1/s"
+        )
+    return "\n".join(lines)
+
+
+def _span(ends: tuple[float, float]) -> str:
+    return f"{ends[0]:g} ... {ends[1]:g}"
