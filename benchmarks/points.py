@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.critical import critical
+from bikestab.family import Family
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.notation import MEIJAARD
 from bikestab.presets import preset_text
@@ -37,7 +38,7 @@ def tile(shape: tuple[int, ...], delta: float, fields: tuple[str, ...]) -> Tile:
     """A tile that spans the box."""
     lam, sigma, V = (np.linspace(*BOX[name], n) for name, n in zip(BOX, shape, strict=True))
     bicycle = Bicycle.preset(BICYCLE).with_delta(delta)
-    return Tile(bicycle, "refined", lam, sigma, V, fields, (32, 32, 32), lowest=True)
+    return Tile(Family(bicycle), lam, sigma, V, fields, (32, 32, 32), lowest=True)
 
 
 def masks(t: Tile) -> NDArray[np.uint8]:

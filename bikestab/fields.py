@@ -8,21 +8,30 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS, condition
 
-Axis = Literal["lam", "sigma", "V"]
-AXES: tuple[Axis, Axis, Axis] = ("lam", "sigma", "V")
+Axis = str
+Axes = tuple[Axis, Axis, Axis]
+AXES: Axes = ("lam", "sigma", "V")  # where the grid has no other parameters than tilt and trail
 COORDINATES: dict[Axis, tuple[str, str]] = {  # unit, meaning
     "lam": ("rad", "tilt of the steering axis from the vertical, top backwards"),
     "sigma": ("1", "trail divided by the wheelbase"),
     "V": ("m s-1", "forward speed"),
 }
+
+
+def coordinates(family: Family) -> dict[Axis, tuple[str, str]]:
+    """Unit and meaning of the axes of a family's grid."""
+    named = {parameter.name: (parameter.unit, parameter.meaning) for parameter in family.parameters}
+    axes = {name: COORDINATES.get(name, about) for name, about in named.items()}
+    return {**axes, "V": COORDINATES["V"]}
 
 
 class Points(NamedTuple):

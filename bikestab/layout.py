@@ -5,17 +5,22 @@ docs/format.md says the same in words. Volumes of earlier builds lack some of it
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.bicycle import PAPER, Bicycle
 from bikestab.errors import InputError
-from bikestab.fields import AXES, FIELDS
+from bikestab.fields import AXES, FIELDS, Axes
+from bikestab.hdf5 import text_of
 from bikestab.kinds import KINDS, REASONS, UNBOUNDED
+from bikestab.notation import MEIJAARD
+from bikestab.rider import RIDER
 from bikestab.routh import CONDITIONS
+from bikestab.variants import FRONT
 
 TEXTS = (
     "title", "references", "bicycle", "bicycle_parameters", "warnings", "model", "config", "config_sha256",
@@ -30,22 +35,41 @@ LARGEST |= {field.name: len(field.flags) - 1 for field in FIELDS.values() if fie
 LARGEST |= {field.name: (1 << len(field.masks)) - 1 for field in FIELDS.values() if field.masks}
 
 
-def expected(fields: list[str], ensemble: bool, bounds: bool) -> Iterator[tuple[str, tuple[str, ...], type]]:
-    """The datasets of a volume that are no coordinates: name, axes behind those of the sweep, type."""
+def expected(
+    fields: list[str], ensemble: bool, bounds: bool, axes: Axes = AXES
+) -> Iterator[tuple[str, tuple[str, ...], type]]:
+    """The datasets of a volume that are no coordinates: name, axes behind those of the sweep, type.
+
+    ``axes`` are those of the grid.
+    """
+    x, y, _ = axes
     for name in fields:
-        yield name, AXES, FIELDS[name].dtype
+        yield name, axes, FIELDS[name].dtype
     ends = ("V1", "V2", *(BOUNDS[:2] if bounds else ()))
-    yield from ((name, ("lam", "sigma", "interval"), np.float64) for name in ends)
-    yield from ((name, ("lam", "sigma", "interval"), np.uint8) for name in ("lower", "upper"))
+    yield from ((name, (x, y, "interval"), np.float64) for name in ends)
+    yield from ((name, (x, y, "interval"), np.uint8) for name in ("lower", "upper"))
     if bounds:
-        yield "marginal", ("lam", "sigma"), np.uint8
+        yield "marginal", (x, y), np.uint8
     for name in CONDITIONS:
-        yield f"boundary/{name}", ("lam", "sigma", "root"), np.float64
-        yield f"boundary/{name}_edge", ("lam", "sigma", "root"), np.uint8
+        yield f"boundary/{name}", (x, y, "root"), np.float64
+        yield f"boundary/{name}_edge", (x, y, "root"), np.uint8
     if ensemble:
-        yield from ((f"{name}_quantiles", ("lam", "sigma", "quantile"), np.float64) for name in ("V1", "V2"))
+        yield from ((f"{name}_quantiles", (x, y, "quantile"), np.float64) for name in ("V1", "V2"))
         for name in ("probability_somewhere", "probability_unbounded"):
-            yield name, ("lam", "sigma"), np.float64
+            yield name, (x, y), np.float64
+
+
+def grid_axes(file: h5py.File) -> Axes:
+    """The names of the grid's axes; InputError for what is none."""
+    if "axes" not in file.attrs:
+        return AXES
+    names = text_of(file, "axes").split()
+    known = {**PAPER, **MEIJAARD, **RIDER, **FRONT}
+    if len(names) != 3 or names[2] != "V" or names[0] == names[1] or not {*names[:2]} <= known.keys():
+        raise InputError(
+            f"the attribute 'axes' is {' '.join(names)[:40]!r}", hint="allowed: two parameters and V"
+        )
+    return names[0], names[1], names[2]
 
 
 def sweep_names(file: h5py.File) -> list[str]:
@@ -53,6 +77,13 @@ def sweep_names(file: h5py.File) -> list[str]:
     if "machine" not in file:
         return []
     return [dim[0].name[1:] for dim in file["machine"].dims][:-1]
+
+
+def bicycle_of(numbers: Mapping[str, float | None], name: str = "bicycle", source: str = "") -> Bicycle:
+    """The bicycle of numbers as a volume keeps them: the paper's, or those of bodies."""
+    if "w" in numbers:
+        return Bicycle.from_mapping({**numbers, "source": source}, name=name)
+    return Bicycle(**numbers, name=name, source=source)  # type: ignore[arg-type]  # λ and σ may be None
 
 
 def machine_names(data: h5py.Dataset) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -115,18 +115,6 @@ class Machines:
         return cls(
             shape=shape, bodies=bodies, parts=(*parts,), **{p.name: numbers[p.name] for p in _PARAMETERS}
         )
-
-    @classmethod
-    def of(cls, bicycles: Sequence[Bicycle]) -> Machines:
-        """These bicycles, all given in one notation and with the same parameters of it."""
-
-        def column(values: Sequence[Any]) -> Any:
-            return values[0] if values.count(values[0]) == len(values) else np.array(values)[:, np.newaxis]
-
-        numbers = {p.name: column([getattr(each, p.name) for each in bicycles]) for p in _PARAMETERS}
-        given = [each.bodies for each in bicycles if each.bodies is not None]
-        bodies = {name: column([each[name] for each in given]) for name in given[0]} if given else None
-        return cls(shape=(len(bicycles), 1), bodies=bodies, **numbers)
 
     def doubtful(self) -> dict[str, int]:
         """How many machines have what no rigid bodies on the ground can have, by what it is."""

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError, nearest
+from bikestab.family import Family
 from bikestab.fields import FIELDS, Axis
 from bikestab.formats.kinds import expected
 from bikestab.hdf5 import open_file, text_of
-from bikestab.layout import check_ends, check_values, machine_names, sweep_names
+from bikestab.layout import bicycle_of, check_ends, check_values, grid_axes, machine_names, sweep_names
 from bikestab.model import Floats, Model
 from bikestab.volumecheck import check_volume
 from bikestab.watched import watched
@@ -45,6 +46,7 @@ class Volume:
                 self.file = open_file(self.path)
         except InputError as error:
             raise error.at(str(path)) from None
+        self.axes = grid_axes(self.file)
         self.swept: dict[str, Floats] = {name: self.file[name][()] for name in sweep_names(self.file)}
         self._chosen: dict[str, int] = {}
 
@@ -84,12 +86,12 @@ class Volume:
         return values
 
     def axis(self, name: Axis) -> Floats:
-        """The values of λ [rad], σ [1] or V [m/s]."""
+        """The values of one of ``axes``: λ [rad], σ [1] and V [m/s], or others in place of λ and σ."""
         return self.read(name)
 
     @property
     def fields(self) -> list[str]:
-        """The names of the (lam, sigma, V) fields in the file."""
+        """The names of the fields over the grid in the file."""
         return [name for name in FIELDS if name in self.file]
 
     def to_xarray(self) -> xarray.Dataset:
@@ -152,9 +154,15 @@ class Volume:
                 name: None if np.isnan(value) else value for name, value in zip(names, row, strict=True)
             }
         try:
-            return Bicycle(**numbers, name=self.text("bicycle"), source=self.text("references"))
+            return bicycle_of(numbers, self.text("bicycle"), self.text("references"))
         except InputError as error:
             raise error.at(str(self.path), under=("machine",)) from None
+
+    @property
+    def family(self) -> Family:
+        """The designs that the grid has of the machine."""
+        x, y, _ = self.axes
+        return Family(self.bicycle, self.model, x, y)
 
     @property
     def model(self) -> Model:
@@ -175,9 +183,9 @@ def _found(path: Path) -> Path:
     raise InputError("there is no such volume", place=str(path), hint="'bikestab scan CONFIG' writes one")
 
 
-def parameters_text(bicycle: Bicycle) -> str:
+def parameters_text(family: Family) -> str:
     """The bicycle's numbers as the volume keeps them."""
-    return json.dumps(bicycle.numbers())
+    return json.dumps(family.kept)
 
 
 def check_ranges(volume: Volume, names: Iterable[Axis], what: str) -> None:

@@ -8,7 +8,9 @@ from __future__ import annotations
 import hashlib
 import json
 import string
+from collections.abc import Mapping
 from dataclasses import MISSING
+from itertools import product
 from math import inf, prod
 from pathlib import Path
 from typing import Any
@@ -16,15 +18,25 @@ from typing import Any
 import h5py
 import numpy as np
 
-from bikestab.bicycle import PAPER, Bicycle, parameters
+from bikestab.bicycle import PAPER, parameters
 from bikestab.errors import InputError
-from bikestab.fields import AXES, COORDINATES, FIELDS
+from bikestab.family import Family
+from bikestab.fields import AXES, COORDINATES, FIELDS, Axes
 from bikestab.hdf5 import check_links, check_whole, dataset, number_of, open_file, reading, text_of
 from bikestab.identity import identity
-from bikestab.layout import BOUNDS, MOST_INTERVALS, TEXTS, expected, machine_names, sweep_names
-from bikestab.limits import MOST, check_speed, check_tilt, check_trail
+from bikestab.layout import (
+    BOUNDS,
+    MOST_INTERVALS,
+    TEXTS,
+    bicycle_of,
+    expected,
+    grid_axes,
+    machine_names,
+    sweep_names,
+)
+from bikestab.limits import MOST, check_speed
 from bikestab.model import Floats
-from bikestab.notation import MEIJAARD
+from bikestab.notation import MEIJAARD, OPTIONAL
 from bikestab.rider import RIDER
 
 
@@ -32,7 +44,7 @@ def check_volume(path: Path) -> None:
     """Raise InputError, which names the object, unless a file is a whole volume."""
     with open_file(path) as file:
         with reading():
-            if "config_sha256" not in file.attrs or "lam" not in file:
+            if "config_sha256" not in file.attrs or "V" not in file:
                 raise InputError("is an HDF5 file, but no volume of bikestab")
             if "complete" not in file.attrs or not number_of(file, "complete", 0, 1):
                 raise InputError("is incomplete", hint="'bikestab scan --force' writes it again")
@@ -40,13 +52,19 @@ def check_volume(path: Path) -> None:
         texts = {name: text_of(file, name) for name in TEXTS}
         if texts["model"] not in ("refined", "unrefined"):
             raise InputError(f"the attribute 'model' is {texts['model'][:40]!r}")
+        axes = grid_axes(file)
         swept = _sweep(file)
-        grid: dict[str, Floats] = {name: _coordinate(file, name, COORDINATES[name][0]) for name in AXES}
-        _check_grid(grid)
+        grid: dict[str, Floats] = {
+            name: _coordinate(file, name, COORDINATES.get(name, ("",))[0]) for name in axes
+        }
+        if {*swept} & {*axes}:
+            raise InputError("has an axis of the grid", key=("machine",))
+        numbers = bicycle_numbers(texts["bicycle_parameters"])
+        _check_grid(grid, numbers)
         lengths = {name: len(values) for name, values in (swept | grid).items()}
-        _check_datasets(file, lengths, list(swept))
+        _check_datasets(file, lengths, list(swept), axes)
         _check_numbers(file, prod(lengths.values()))
-        _check_identity(file, texts, swept, grid)
+        _check_identity(file, texts, numbers, swept, grid)
 
 
 def _sweep(file: h5py.File) -> dict[str, Floats]:
@@ -77,13 +95,16 @@ def _coordinate(file: h5py.File, name: str, unit: str = "") -> Floats:
     return values
 
 
-def _check_grid(grid: dict[str, Floats]) -> None:
-    for name, check in zip(AXES, (check_tilt, check_trail, check_speed), strict=True):
-        for value in (grid[name][0], grid[name][-1]):
-            check(float(value), (name,))
+def _check_grid(grid: dict[str, Floats], numbers: Mapping[str, Any]) -> None:
+    x, y, V = grid
+    family = Family(bicycle_of(numbers), x=x, y=y)
+    for corner in product(*(grid[name][[0, -1]].tolist() for name in (x, y))):
+        family.check(*corner)
+    for value in (grid[V][0], grid[V][-1]):
+        check_speed(float(value), (V,))
 
 
-def _check_datasets(file: h5py.File, lengths: dict[str, int], lead: list[str]) -> None:
+def _check_datasets(file: h5py.File, lengths: dict[str, int], lead: list[str], grid: Axes) -> None:
     with reading():
         fields = [name for name in FIELDS if name in file]
         ensemble = "ensemble_samples" in file.attrs
@@ -101,7 +122,7 @@ def _check_datasets(file: h5py.File, lengths: dict[str, int], lead: list[str]) -
     with reading("boundary"):
         if not isinstance(file.get("boundary"), h5py.Group):
             raise InputError("is no group", key=("boundary",))
-    for name, axes, dtype in expected(fields, ensemble, bounds):
+    for name, axes, dtype in expected(fields, ensemble, bounds, grid):
         data = dataset(file, name, dtype, tuple(lengths[axis] for axis in (*lead, *axes)))
         if name in fields:
             with reading(name):
@@ -129,12 +150,14 @@ def _check_machines(data: h5py.Dataset) -> None:
 
 
 def _check_names(names: list[str], where: str) -> None:
-    known = {p.name: p for p in parameters()}
+    known: dict[str, bool] = {p.name: p.default is MISSING for p in parameters()}  # and whether it is needed
+    if "w" in names:
+        known = {name: name not in OPTIONAL and name not in RIDER for name in (*MEIJAARD, *RIDER)}
     for name in names:
         if name not in known:
             raise InputError(f"{name[:40]!r} is no parameter", key=(where,))
-    for name, parameter in known.items():
-        if parameter.default is MISSING and name not in names:
+    for name, needed in known.items():
+        if needed and name not in names:
             raise InputError(f"has no {name}", key=(where,))
 
 
@@ -162,20 +185,21 @@ def bicycle_numbers(text: str) -> dict[str, Any]:
         if not isinstance(value, (int, float)) and not (value is None and name in ("lam", "sigma")):
             raise InputError(f"{name} is no number", key=key)
     try:
-        Bicycle(**numbers)
+        bicycle_of(numbers)
     except InputError as error:
         raise error.at(under=key) from None
     return numbers
 
 
 def _check_identity(
-    file: h5py.File, texts: dict[str, str], swept: dict[str, Floats], grid: dict[str, Floats]
-) -> None:
+    file: h5py.File, texts: dict[str, str], numbers: dict[str, Any], swept: dict[str, Floats],
+    grid: dict[str, Floats],
+) -> None:  # fmt: skip
     """Raise InputError where ``config_sha256`` is not of what is in the file.
 
     An earlier build's is a hash of the config's text. What is drawn at random stands in that text alone.
     """
-    given, numbers = texts["config_sha256"], bicycle_numbers(texts["bicycle_parameters"])
+    given = texts["config_sha256"]
     if len(given) != 64 or set(given) - set(string.hexdigits.lower()):
         raise InputError("the attribute 'config_sha256' is no SHA-256")
     if "ensemble_samples" in file.attrs or given == hashlib.sha256(texts["config"].encode()).hexdigest():
@@ -184,6 +208,7 @@ def _check_identity(
         machines = file["machine"][()] if swept else np.array([list(numbers.values())], float)
     fields = {FIELDS[name].asked for name in FIELDS if name in file}
     rows = machines.reshape(-1, machines.shape[-1])
-    if given != identity(texts["model"], rows, [grid[name] for name in AXES], fields, swept, None):
+    named = () if (*grid,) == AXES else (*list(grid)[:2], *numbers)
+    if given != identity(texts["model"], rows, [*grid.values()], fields, swept, None, named):
         problem = "the attribute 'config_sha256' is of another scan than the axes, parameters and fields are"
         raise InputError(problem)

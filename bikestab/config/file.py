@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
+from bikestab.config.parts import GRIDS
 from bikestab.config.scanconfig import Expectation, Plane, ScanConfig
 from bikestab.config.variation import Distribution, Ensemble
 from bikestab.errors import InputError, dotted, nearest
@@ -79,17 +80,19 @@ def _translated(error: ValidationError) -> InputError:
     """The one mistake to tell of first: a misspelt key explains the missing one."""
     errors = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
     first = errors[0]
-    key, context, kind = first["loc"], first.get("ctx", {}), first["type"]
+    key, context, kind, family = first["loc"], first.get("ctx", {}), first["type"], False
+    if key[:1] == ("grid",) and len(key) > 1 and key[1] in GRIDS:
+        family, key = key[1] == GRIDS[1], (key[0], *key[2:])  # without the tag of the grids' union
     tag = key[2] if key[:1] in (("grid",), ("sweep",)) and len(key) > 2 else ""
     if tag:
         key = key[:2] + key[3:]  # without the tag of the axis' union
     if kind == "bikestab":
         return InputError(context["problem"], key=context["key"] or key, hint=context["hint"])
     if kind == "extra_forbidden":
-        known = ["values"] if tag == "values" else _known(key[:-1])
+        known = ["values"] if tag == "values" else _known(key[:-1], family)
         return InputError("unknown key", key=key, hint=nearest(str(key[-1]), known))
     if kind == "missing":
-        return InputError("missing", key=key, hint=f"needed here: {', '.join(_known(key[:-1]))}")
+        return InputError("missing", key=key, hint=f"needed here: {', '.join(_known(key[:-1], family))}")
     if kind == "literal_error":
         words = context["expected"].replace(" or ", ", ").replace("'", "").split(", ")
         return InputError(f"{shown(first['input'])} is not known", key=key, hint=_near(first["input"], words))
@@ -106,7 +109,9 @@ def _translated(error: ValidationError) -> InputError:
         "too_short": f"a list of at least {context.get('min_length')}",
         "string_too_short": "text that is not empty",
     }.get(kind, first["msg"])
-    hint = f"keys here: {', '.join(_known(key))}" if what == "keys with values" else f"allowed: {what}"
+    hint = (
+        f"keys here: {', '.join(_known(key, family))}" if what == "keys with values" else f"allowed: {what}"
+    )
     if kind == "list_type" and tag == "list":
         hint += " of values, or {start: ..., stop: ..., num: ...}"
     return InputError(f"{shown(first['input'])} is not {what}", key=key, hint=hint)
@@ -116,12 +121,15 @@ def _near(value: object, words: Sequence[str]) -> str:
     return nearest(value, words) if isinstance(value, str) else f"known: {', '.join(words)}"
 
 
-def _known(key: tuple[str | int, ...]) -> list[str]:
+def _known(key: tuple[str | int, ...], family: bool) -> list[str]:
     """The keys that may stand at a place of the document."""
     if not key:
         return list(ScanConfig.model_fields)
     if key[0] == "grid":
-        return [*AXES, "head_angle", "trail"] if len(key) == 1 else ["start", "stop", "num", "values"]
+        values = ["start", "stop", "num", "values"]
+        if family:
+            return ["x", "y", "V"] if len(key) == 1 else ["name", *values]
+        return [*AXES, "head_angle", "trail"] if len(key) == 1 else values
     if key[0] == "sweep":
         return ["parameters of the bicycle"] if len(key) == 1 else ["start", "stop", "num", "values"]
     if key == ("ensemble",):

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from bikestab.bicycle import Bicycle
-from bikestab.config.values import json_schema, mistake
-from bikestab.errors import InputError
+from bikestab.config.values import in_si, json_schema, mistake
+from bikestab.config.variation import VARIED
+from bikestab.errors import InputError, nearest
 from bikestab.geometry import GIVEN, design_given
 from bikestab.notation import MEASURED
 from bikestab.units import quantity
@@ -25,11 +26,17 @@ def in_lam_and_sigma(given: Any) -> Any:
     if not isinstance(given, Mapping) or not isinstance(bicycle := given.get("bicycle"), Bicycle):
         return given
     config = dict(given)
+    axes = _named(config.get("grid"))
     if isinstance(grid := config.get("grid"), Mapping) and MEASURED.keys() & grid:
         config["grid"] = _grid(grid, bicycle, config.get("sweep"))
     for name in ("slices", "expect"):
         if isinstance(entries := config.get(name), list):
-            config[name] = [_entry(entry, bicycle, (name, i)) for i, entry in enumerate(entries)]
+            config[name] = [
+                _plane(entry, axes, (name, i))
+                if axes and name == "slices"
+                else _entry(entry, bicycle, (name, i))
+                for i, entry in enumerate(entries)
+            ]
     return config
 
 
@@ -52,6 +59,26 @@ def also_measured_axes(schema: dict[str, Any]) -> None:
         schema["properties"][name] = {"description": MEASURED[name], "oneOf": kinds}
         schema["required"].remove(other)
         schema["allOf"].append({"oneOf": [{"required": [other]}, {"required": [name]}]})
+
+
+def _named(grid: Any) -> tuple[str, ...]:
+    """The names of a grid's axes where it has other ones than lam and sigma; none of what is no grid."""
+    if not isinstance(grid, Mapping) or {"x", "y"}.isdisjoint(grid):
+        return ()
+    names = [grid[key].get("name") for key in ("x", "y") if isinstance(grid.get(key), Mapping)]
+    return (*(name for name in names if isinstance(name, str)), "V")
+
+
+def _plane(entry: Any, axes: tuple[str, ...], key: _Key) -> Any:
+    """A slice of a grid with these axes, its value as a number."""
+    if not isinstance(entry, Mapping):
+        return entry
+    numbers = {}
+    for name, value in entry.items():
+        if name not in axes:
+            raise mistake(f"the grid has no axis {name!r}", nearest(str(name), axes), (*key, name))
+        numbers[name] = value if name == "V" else in_si(value, VARIED.get(name, ""), (*key, name))
+    return numbers
 
 
 def _grid(grid: Mapping[str, Any], bicycle: Bicycle, sweep: Any) -> dict[str, Any]:
@@ -95,7 +122,11 @@ def _axis(axis: Any, name: str, bicycle: Bicycle) -> Any:
 
 def _entry(entry: Any, bicycle: Bicycle, key: _Key) -> Any:
     """A slice or an expectation with lam and sigma, which its MEASURED and these give."""
-    if not isinstance(entry, Mapping) or not MEASURED.keys() & entry:
+    if not isinstance(entry, Mapping):
+        return entry
+    if key[0] == "slices" and (strange := [name for name in entry if name not in {*GIVEN, "V"}]):
+        raise mistake("unknown key", nearest(str(strange[0]), [*GIVEN, "V"]), (*key, strange[0]))
+    if not MEASURED.keys() & entry:
         return entry
     typed = {name: value for name, value in entry.items() if name in GIVEN and value is not None}
     if key[0] == "slices" and len(entry) != 1:

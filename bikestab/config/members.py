@@ -9,10 +9,14 @@ from itertools import product
 from typing import NamedTuple
 
 from bikestab.bicycle import Bicycle
+from bikestab.config.parts import FamilyGrid, Grid
 from bikestab.config.values import NumberAxis
 from bikestab.config.variation import BOTH, Ensemble
 from bikestab.errors import InputError, nearest
+from bikestab.family import Family
+from bikestab.fields import AXES, Axes
 from bikestab.model import Floats
+from bikestab.variants import fixed_by, front_of
 
 MOST_MEMBERS = 10_000  # of a sweep
 MOST_MACHINES = 100_000_000  # of all ensembles of a sweep
@@ -44,31 +48,67 @@ def swept_axes(bicycle: Bicycle, sweep: Mapping[str, NumberAxis]) -> list[SweptA
 
 
 def check_names(
-    bicycle: Bicycle, sweep: Iterable[str], ensemble: Ensemble | None, *, own_delta: bool
+    bicycle: Bicycle, axes: Axes, sweep: Iterable[str], ensemble: Ensemble | None, *, own_delta: bool
 ) -> None:
-    """Raise InputError unless every varied name is a parameter of the bicycle's notation, and varied once."""
+    """Raise InputError unless every varied name is a parameter of the bicycle's notation, and varied once.
+
+    ``axes`` are the grid's.
+    """
     names = [("sweep", name) for name in sweep]
     names += [("ensemble", name) for name in (ensemble.parameters if ensemble else ())]
-    on_grid = {"lam": "tilt", "head_angle": "tilt", "sigma": "trail", "trail": "trail", "offset": "trail"}
-    on_grid |= {"c": "trail"} if bicycle.bodies is not None else {}
-    known = [name for name in bicycle.notation if name not in on_grid]
-    seen: dict[str, str] = {}
+    on_grid = fixed_by(bicycle, axes)
+    known = [name for name in bicycle.notation if front_of(bicycle, name) not in on_grid]
+    seen: dict[str, str] = {one: "grid" for name in axes for one in _equal(name)}
     for key in names:
         name = key[1]
-        if name in on_grid:
-            axis = "lam" if on_grid[name] == "tilt" else "sigma"
-            raise InputError(
-                f"the grid has the {on_grid[name]}", key=key, hint=f"give its values in grid.{axis}"
-            )
+        if (place := front_of(bicycle, name)) in on_grid:
+            the, axis = "trail" if place == "offset" else place, on_grid[place]
+            raise InputError(f"the grid has the {the}", key=key, hint=f"give its values in grid.{axis}")
         if name not in known:
             other = " (a key of the other notation)" if name in BOTH else ""
             raise InputError(f"unknown parameter{other}", key=key, hint=nearest(name, known))
         if name == "delta" and own_delta:
             raise InputError("delta is given for the whole config as well", key=key, hint="give one of them")
-        for one in ("R1", "R2") if name == "R" else (name,):
+        for one in _equal(name):
             if one in seen:
                 raise InputError(f"{seen[one]} varies it already", key=key, hint="vary it once")
             seen[one] = ".".join(key)
+
+
+def _equal(name: str) -> tuple[str, ...]:
+    return ("R1", "R2") if name == "R" else (name,)
+
+
+def check_family(bicycle: Bicycle, grid: Grid | FamilyGrid) -> None:
+    """Raise InputError unless the grid's two parameters are such of the bicycle, and leave no other open."""
+    x, y, _ = grid.names
+    if grid.names == AXES:
+        return
+    try:
+        Family(bicycle, x=x, y=y)
+    except InputError as error:
+        axis = str(error.key[0])
+        key = ("grid", axis, "name") if axis in ("x", "y") else ("grid",)
+        raise InputError(error.problem, key=key, hint=error.hint) from None
+
+
+def check_designs(machines: list[Member], grid: Grid | FamilyGrid) -> None:
+    """Raise InputError where no machine has the parameters' values at the corners of the grid."""
+    x, y, _ = grid.names
+    if grid.names == AXES:  # checked where they are read
+        return
+    for member in machines:
+        family = Family(member.bicycle, x=x, y=y)
+        for corner in product(grid.ends(x), grid.ends(y)):
+            try:
+                family.check(*corner)
+            except InputError as error:
+                at = ", ".join(
+                    f"{n} = {v:g}" for n, v in {**member.values, x: corner[0], y: corner[1]}.items()
+                )
+                name = str(error.key[0]) if error.key else x
+                key = ("grid", grid.key(name)) if name in (x, y) else ("grid",)
+                raise InputError(f"at {at}: {error.problem}", key=key, hint=error.hint) from None
 
 
 def members(machine: Bicycle, sweep: Mapping[str, NumberAxis]) -> list[Member]:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import BeforeValidator, ConfigDict, Discriminator, Field, Tag, model_validator
 
 from bikestab.config.measured import also_measured, also_measured_axes
 from bikestab.config.values import (
     ABSENT,
+    BY_KEYS,
+    Number,
+    Range,
     Speed,
     SpeedAxis,
     Strict,
@@ -17,41 +20,137 @@ from bikestab.config.values import (
     Trail,
     TrailAxis,
     UpperSpeed,
+    Values,
     Within,
+    in_si,
+    json_schema,
     mistake,
 )
-from bikestab.fields import Axis
+from bikestab.config.variation import VARIED
+from bikestab.errors import nearest
+from bikestab.fields import AXES, Axes, Axis
 from bikestab.model import Floats
+from bikestab.units import units_in
+
+Name: TypeAlias = Annotated[str, Field(strict=True, description="a parameter of the bicycle")]
 
 
-class Grid(Strict):
+class NamedRange(Range[Number]):
+    """Equally spaced values of a parameter, both ends included."""
+
+    name: Name
+
+
+class NamedValues(Values[Number]):
+    """Chosen values of a parameter."""
+
+    name: Name
+
+
+NamedAxis: TypeAlias = Annotated[
+    Annotated[NamedRange, Tag("range")] | Annotated[NamedValues, Tag("values")], BY_KEYS
+]
+
+
+def _with_units(axis: str) -> BeforeValidator:
+    """Values of a parameter's axis with numbers for texts with units."""
+
+    def validate(given: Any) -> Any:
+        name = given.get("name") if isinstance(given, dict) else None
+        if not isinstance(name, str):
+            return given
+        if name not in VARIED:
+            raise mistake(f"there is no parameter {name!r}", nearest(name, VARIED), ("grid", axis, "name"))
+        plain = ("name", "num")
+        return {
+            key: value if key in plain else in_si(value, VARIED[name], ("grid", axis, key))
+            for key, value in given.items()
+        }
+
+    return BeforeValidator(validate)
+
+
+class _Axes(Strict):
+    """What every grid can tell."""
+
+    V: Annotated[SpeedAxis, Field(description="forward speed [m/s]")]
+
+    @property
+    def names(self) -> Axes:
+        """What its axes are called."""
+        return AXES
+
+    def key(self, name: Axis) -> str:
+        """The key of one axis in the config."""
+        return name
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Number of values of each axis."""
+        n, m, k = (len(self.values(name)) for name in self.names)
+        return n, m, k
+
+    def values(self, name: Axis) -> Floats:
+        """The values of one axis."""
+        return getattr(self, self.key(name)).points
+
+    def ends(self, name: Axis) -> tuple[float, float]:
+        """First and last value of one axis."""
+        axis = getattr(self, self.key(name))
+        return (axis.start, axis.stop) if hasattr(axis, "num") else (axis.values[0], axis.values[-1])
+
+
+class Grid(_Axes):
     """The values of λ, σ and V whose every combination is evaluated."""
 
     model_config = ConfigDict(json_schema_extra=also_measured_axes)
 
     lam: Annotated[TiltAxis, Field(description="tilt of the steering axis from the vertical [rad]")]
     sigma: Annotated[TrailAxis, Field(description="trail divided by the wheelbase [1]")]
-    V: Annotated[SpeedAxis, Field(description="forward speed [m/s]")]
+
+
+class FamilyGrid(_Axes):
+    """The same of any two parameters in place of λ and σ."""
+
+    x: Annotated[NamedAxis, _with_units("x"), Field(description="values of a parameter")]
+    y: Annotated[NamedAxis, _with_units("y"), Field(description="values of another one")]
 
     @property
-    def shape(self) -> tuple[int, int, int]:
-        """Number of values of λ, σ and V."""
-        return self.lam.size, self.sigma.size, self.V.size
+    def names(self) -> Axes:
+        """What its axes are called."""
+        return self.x.name, self.y.name, "V"
 
-    def values(self, name: Axis) -> Floats:
-        """The values of one axis."""
-        return getattr(self, name).points
+    def key(self, name: Axis) -> str:
+        """The key of one axis in the config."""
+        return {self.x.name: "x", self.y.name: "y"}.get(name, name)
 
-    def ends(self, name: Axis) -> tuple[float, float]:
-        """First and last value of one axis."""
-        axis = getattr(self, name)
-        return (axis.start, axis.stop) if hasattr(axis, "num") else (axis.values[0], axis.values[-1])
+
+GRIDS = TILT_AND_TRAIL, TWO_PARAMETERS = "tilt and trail", "two parameters"
+
+
+def _which(given: Any) -> str:
+    family = isinstance(given, FamilyGrid) or (isinstance(given, dict) and not {"x", "y"}.isdisjoint(given))
+    return TWO_PARAMETERS if family else TILT_AND_TRAIL
+
+
+AnyGrid: TypeAlias = Annotated[
+    Annotated[Grid, Tag(TILT_AND_TRAIL)] | Annotated[FamilyGrid, Tag(TWO_PARAMETERS)], Discriminator(_which)
+]
+
+
+def _plane_schema(schema: dict[str, Any]) -> None:
+    also_measured(schema)
+    for name, meaning in VARIED.items():
+        if name not in schema["properties"]:
+            schema["properties"][name] = {"description": meaning, **json_schema(units_in(meaning))}
+    schema["additionalProperties"] = False
 
 
 class Plane(Strict):
-    """A picture across one axis, at one of its values."""
+    """A picture across one axis, at one of its values; of a grid of other parameters one of these."""
 
-    model_config = ConfigDict(json_schema_extra=also_measured)
+    model_config = ConfigDict(json_schema_extra=_plane_schema, extra="allow")
+    __pydantic_extra__: dict[str, Number]
 
     lam: Tilt = ABSENT
     sigma: Trail = ABSENT
@@ -67,7 +166,7 @@ class Plane(Strict):
     def fixed(self) -> tuple[Axis, float]:
         """The axis and its value."""
         (name,) = self.model_fields_set
-        return name, getattr(self, name)  # type: ignore[return-value]  # the fields are the axes
+        return name, getattr(self, name)
 
 
 class Expectation(Strict):

@@ -16,14 +16,16 @@ from bikestab.config.measured import in_lam_and_sigma
 from bikestab.config.members import (
     Member,
     SweptAxis,
+    check_designs,
+    check_family,
     check_names,
     check_samples,
     doubts_of,
     members,
     swept_axes,
 )
+from bikestab.config.parts import AnyGrid
 from bikestab.config.parts import Expectation as Expectation
-from bikestab.config.parts import Grid as Grid
 from bikestab.config.parts import Plane as Plane
 from bikestab.config.values import (
     Damping,
@@ -33,9 +35,10 @@ from bikestab.config.values import (
 )
 from bikestab.config.variation import SWEPT, Ensemble, with_units
 from bikestab.errors import InputError, nearest
+from bikestab.family import Family
 from bikestab.fields import AXES, askable
 from bikestab.identity import identity
-from bikestab.model import Model
+from bikestab.model import Floats, Model
 from bikestab.plausible import design_doubts
 from bikestab.presets import preset_names
 from bikestab.rider import left_behind
@@ -76,7 +79,7 @@ class ScanConfig(Strict):
     delta: Annotated[
         Damping | None, Field(description="steering damping instead of the bicycle's own [kg m²/s]")
     ] = None
-    grid: Grid
+    grid: AnyGrid
     fields: Annotated[list[FieldName], Field(min_length=1, description="what the volume holds")] = [
         "stable",
         "violated",
@@ -107,18 +110,25 @@ class ScanConfig(Strict):
     def _consistent(self) -> ScanConfig:
         for i, plane in enumerate(self.slices):
             name, value = plane.fixed
+            if name not in self.grid.names:
+                raise mistake(
+                    f"the grid has no axis {name!r}", nearest(name, self.grid.names), ("slices", i, name)
+                )
             first, last = self.grid.ends(name)
             if not first <= value <= last:
                 hint = f"allowed: {first:g} ... {last:g}"
                 raise mistake(f"{value:g} is outside the grid", hint, ("slices", i, name))
-            for other in AXES:
-                if other != name and getattr(self.grid, other).size == 1:
+            for other in self.grid.names:
+                if other != name and len(self.grid.values(other)) == 1:
                     problem = f"a picture needs a range of {other}, and the grid has one value"
-                    raise mistake(
-                        problem, f"leave it out, or give more values in grid.{other}", ("slices", i)
-                    )
+                    key = self.grid.key(other)
+                    raise mistake(problem, f"leave it out, or give more values in grid.{key}", ("slices", i))
         try:
-            check_names(self.bicycle, self.sweep, self.ensemble, own_delta=self.delta is not None)
+            check_family(self.bicycle, self.grid)
+            check_names(
+                self.bicycle, self.grid.names, self.sweep, self.ensemble, own_delta=self.delta is not None
+            )
+            check_designs(self.members, self.grid)
             check_samples(self.members, self.ensemble)
         except InputError as error:
             raise mistake(error.problem, error.hint, error.key) from None
@@ -128,6 +138,17 @@ class ScanConfig(Strict):
     def machine(self) -> Bicycle:
         """The bicycle with the damping that is used."""
         return self.bicycle.with_delta(self.delta)
+
+    def family(self, member: int | None = 0) -> Family:
+        """The family that the grid has of a member of the sweep, or for None of the machine itself."""
+        x, y, _ = self.grid.names
+        return Family(self.machine if member is None else self.members[member].bicycle, self.model, x, y)
+
+    @cached_property
+    def kept(self) -> tuple[list[str], Floats]:
+        """What a volume keeps of each machine: the parameters' names, and a row of each, NaN for None."""
+        kept = [self.family(i).kept for i in range(len(self.members))]
+        return list(kept[0]), np.array([[numbers[name] for name in kept[0]] for numbers in kept], float)
 
     @property
     def axes(self) -> list[SweptAxis]:
@@ -142,8 +163,10 @@ class ScanConfig(Strict):
     @cached_property
     def warnings(self) -> list[str]:
         """What no rigid bodies on the ground can have, of the machines that are computed."""
-        lam, sigma = (min(self.grid.ends(name), key=abs) for name in ("lam", "sigma"))
-        doubts = [f"grid: {text}" for text in design_doubts(lam, sigma, self.bicycle.c)]
+        doubts = []
+        if self.grid.names == AXES:
+            lam, sigma = (min(self.grid.ends(name), key=abs) for name in ("lam", "sigma"))
+            doubts = [f"grid: {text}" for text in design_doubts(lam, sigma, self.bicycle.c)]
         if not self.sweep and not self.ensemble:
             return [*doubts, *self.machine.warnings]
         return [*doubts, *doubts_of(self.members, self.ensemble)]
@@ -177,11 +200,12 @@ class ScanConfig(Strict):
     @cached_property
     def sha256(self) -> str:
         """The SHA-256 of what is computed: title, texts, slices, output and what is expected do not count."""
-        rows = [list(member.bicycle.numbers().values()) for member in self.members]
+        names, rows = self.kept
+        named = () if self.grid.names == AXES else (*self.grid.names[:2], *names)
         drawn = None
         if self.ensemble:
             drawn = {**self.ensemble.meaning, "around": drawn_around(self.machine)}
         return identity(
-            self.model, np.array(rows, float), [self.grid.values(name) for name in AXES], self.fields,
-            {axis.name: axis.values for axis in self.axes}, drawn,
+            self.model, rows, [self.grid.values(name) for name in self.grid.names],
+            self.fields, {axis.name: axis.values for axis in self.axes}, drawn, named,
         )  # fmt: skip

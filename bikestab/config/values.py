@@ -220,15 +220,15 @@ def _tag_or_list(given: Any) -> str:
     return _tag(given) if isinstance(given, (dict, Range, Values)) else "list"
 
 
-_BY_KEYS = Discriminator(_tag)
+BY_KEYS = Discriminator(_tag)
 TiltAxis: TypeAlias = Annotated[
-    Annotated[TiltRange, Tag("range")] | Annotated[TiltValues, Tag("values")], _BY_KEYS
+    Annotated[TiltRange, Tag("range")] | Annotated[TiltValues, Tag("values")], BY_KEYS
 ]
 TrailAxis: TypeAlias = Annotated[
-    Annotated[TrailRange, Tag("range")] | Annotated[TrailValues, Tag("values")], _BY_KEYS
+    Annotated[TrailRange, Tag("range")] | Annotated[TrailValues, Tag("values")], BY_KEYS
 ]
 SpeedAxis: TypeAlias = Annotated[
-    Annotated[SpeedRange, Tag("range")] | Annotated[SpeedValues, Tag("values")], _BY_KEYS
+    Annotated[SpeedRange, Tag("range")] | Annotated[SpeedValues, Tag("values")], BY_KEYS
 ]
 NumberAxis: TypeAlias = Annotated[
     Annotated[NumberRange, Tag("range")]

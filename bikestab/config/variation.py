@@ -16,9 +16,11 @@ from bikestab.model import Floats
 from bikestab.notation import MEIJAARD
 from bikestab.rider import RIDER
 from bikestab.units import shown
+from bikestab.variants import FRONT
 
 MOST_SAMPLES = 1_000_000  # of an ensemble
 BOTH = {**PAPER, **MEIJAARD, **RIDER}
+VARIED = {**BOTH, **FRONT}
 SWEPT = [name for name in BOTH if name not in ("lam", "sigma", "trail")]  # known in either notation
 
 

@@ -6,7 +6,7 @@ has single precision and no attributes of one's own, and whose writers tell of a
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +14,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.export.formats import file_format
+from bikestab.fields import AXES
 from bikestab.files import written
 from bikestab.model import Floats
 from bikestab.region.mesh import Mesh
 from bikestab.speeds import CAPSIZE, KINDS, WEAVE
 
+UNITS = {"lam": "rad", "sigma": "1", "V": "m/s"}
 MESHES = {".vtp": "pyvista", ".vtu": "pyvista", ".ply": "", ".stl": ""}  # ending → package it needs
 COLOURS = {WEAVE: (0, 114, 178), CAPSIZE: (230, 159, 0)}  # blue and orange of Okabe and Ito
 _LENGTH = 10.0  # of each side of the box in the file, as far as round factors allow
@@ -44,21 +46,25 @@ def readable_scale(low: ArrayLike, high: ArrayLike) -> Floats:
     return np.array([float(f"{numbers[i]:.0e}") for numbers, i in zip(round_numbers, nearest, strict=True)])
 
 
-def scale_text(scale: ArrayLike) -> str:
-    """How coordinates in a file follow from λ, σ and V, in words."""
-    pairs = zip("xyz", np.asarray(scale, dtype=float), ("lam", "sigma", "V"), strict=True)
+def scale_text(scale: ArrayLike, names: Iterable[str] = AXES) -> str:
+    """How coordinates in a file follow from λ, σ and V, or the axes of these ``names``, in words."""
+    pairs = zip("xyz", np.asarray(scale, dtype=float), names, strict=True)
     return ", ".join(f"{axis} = {factor:.15g} {name}" for axis, factor, name in pairs)
 
 
-def save_mesh(mesh: Mesh, path: Path, scale: Sequence[float] | Floats, about: Mapping[str, str]) -> None:
+def save_mesh(
+    mesh: Mesh, path: Path, scale: Sequence[float] | Floats, about: Mapping[str, str],
+    units: Mapping[str, str] = UNITS,
+) -> None:  # fmt: skip
     """Write a mesh in the format of the file's ending, its points (λ, σ, V) times ``scale`` (3,).
 
-    ``about`` is told in the file as far as the format has room. Raises InputError for an unknown ending or a
-    missing package, and as ``files.written``.
+    ``units`` are those of its axes by their names. ``about`` is told in the file as far as the format has
+    room. Raises InputError for an unknown ending or a missing package, and as ``files.written``.
     """
     ending = file_format(path, MESHES)
     points = mesh.points * np.asarray(scale, dtype=float)
-    about = {"axes": f"{scale_text(scale)} (lam in rad, V in m/s)", **about}
+    of = ", ".join(f"{name} in {unit.replace('²', '2')}" for name, unit in units.items() if unit != "1")
+    about = {"axes": f"{scale_text(scale, units)} ({of})", **about}
     # one line of ASCII, as PLY needs and VTK's Python side
     about = {k: " ".join(text.encode("ascii", "replace").decode().split()) for k, text in about.items()}
     if ending == ".stl":
@@ -66,7 +72,7 @@ def save_mesh(mesh: Mesh, path: Path, scale: Sequence[float] | Floats, about: Ma
     elif ending == ".ply":
         content = _ply(mesh, points, about)
     else:
-        content = _vtk(mesh, points, np.asarray(scale, dtype=float), about, ending)
+        content = _vtk(mesh, points, (*units,), np.asarray(scale, dtype=float), about, ending)
     with written(path) as part:
         part.write_bytes(content)
 
@@ -76,13 +82,15 @@ def _upper(mesh: Mesh) -> NDArray[np.uint8]:
     return np.where(mesh.wall, np.uint8(2), mesh.upper.astype(np.uint8))
 
 
-def _vtk(mesh: Mesh, points: Floats, scale: Floats, about: Mapping[str, str], ending: str) -> bytes:
+def _vtk(
+    mesh: Mesh, points: Floats, names: tuple[str, ...], scale: Floats, about: Mapping[str, str], ending: str
+) -> bytes:
     import pyvista
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
     surface = pyvista.PolyData.from_regular_faces(points, mesh.triangles)
     values = (*mesh.points.T, mesh.decay)
-    for name, value in zip(("lam", "sigma", "V", "growth_rate"), values, strict=True):
+    for name, value in zip((*names, "growth_rate"), values, strict=True):
         surface.point_data[name] = np.ascontiguousarray(value)
     surface.cell_data["kind"] = mesh.kind
     surface.cell_data["upper"] = _upper(mesh)

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from bikestab.fields import AXES, COORDINATES
+from bikestab.fields import coordinates
 from bikestab.volume import Volume, uniform
 
 
 def summary(volume: Volume) -> dict[str, Any]:
     """Names, counts and axes of a volume, as JSON can hold them. Raises InputError where it is damaged."""
-    file = volume.file
+    file, units = volume.file, coordinates(volume.family)
     checks = dict(file["boundary"].attrs)
     bracketed = checks.get("largest_bracketed_difference")  # earlier volumes have none
     number = np.count_nonzero(volume.read("upper"), axis=-1)
@@ -25,7 +25,7 @@ def summary(volume: Volume) -> dict[str, Any]:
         "delta": volume.bicycle.delta,
         "fields": volume.fields,
         "ensemble_samples": volume.samples,
-        "points": prod(len(file[name]) for name in (*volume.swept, *AXES)),
+        "points": prod(len(file[name]) for name in (*volume.swept, *volume.axes)),
         "stable_points": int(file.attrs["stable_points"]),
         "designs": int(number.size),
         "designs_with_a_stable_speed": int(np.count_nonzero(number)),
@@ -42,10 +42,10 @@ def summary(volume: Volume) -> dict[str, Any]:
                 "first": float(values[0]),
                 "last": float(values[-1]),
                 "num": len(values),
-                "unit": COORDINATES[name][0],
+                "unit": units[name][0],
                 "uniform": uniform(values),
             }
-            for name, values in ((name, volume.axis(name)) for name in AXES)
+            for name, values in ((name, volume.axis(name)) for name in volume.axes)
         },
         "warnings": volume.text("warnings").splitlines(),
     }

@@ -20,8 +20,8 @@ from bikestab.records import design_record
 from bikestab.speeds import KINDS, REASONS
 
 if TYPE_CHECKING:
-    from bikestab.bicycle import Bicycle
     from bikestab.design.optimum import JudgedDesign
+    from bikestab.family import Family
     from bikestab.modes import Modes
     from bikestab.region.curves import Curve
     from bikestab.volume import Volume
@@ -57,25 +57,25 @@ SENSITIVITY: Columns = {
     "dV1": _NUMBER, "dV2": _NUMBER, "elasticity_V1": ("float64", "1"), "elasticity_V2": ("float64", "1"),
     "change": _NUMBER,
 }  # fmt: skip
-_LAYER = 64  # values of λ read at once: a layer of the volume's chunks
+_LAYER = 64  # values of the first axis read at once: a layer of the volume's chunks
 _ROWS = 10_000  # turned into text at once
 
 
 def interval_blocks(volume: Volume) -> Iterator[Block]:
     """The rows of INTERVALS: one per stable interval, so none of a design that has no stable speed.
 
-    In the order of λ, then σ, then V. Raises InputError where the volume is damaged.
+    In the order of the volume's axes. Raises InputError where the volume is damaged.
     """
-    lam, sigma, bicycle = volume.axis("lam"), volume.axis("sigma"), volume.bicycle
+    family, (x, y) = volume.family, (volume.axis(name) for name in volume.axes[:2])
     words = np.array(KINDS)
-    for start in range(0, len(lam), _LAYER):
+    for start in range(0, len(x), _LAYER):
         part = slice(start, start + _LAYER)
         V1, V2, lower, upper = (volume.read(name, (part,)) for name in ("V1", "V2", "lower", "upper"))
         i, j, k = np.nonzero(upper)
         numbers = {"interval": (k + 1).astype(np.int32), "V1": V1[i, j, k], "V2": V2[i, j, k]}
         kinds = {"lower": words[lower[i, j, k]], "upper": words[upper[i, j, k]]}
         yield {
-            **_designs(lam[part][i], sigma[j], bicycle),
+            **_designs(x[part][i], y[j], family),
             **numbers,
             **kinds,
             **_bounds(volume, part, i, j, k),
@@ -91,8 +91,8 @@ def _bounds(volume: Volume, part: slice, i: Indices, j: Indices, k: Indices) -> 
     return {**errors, "marginal": np.array(REASONS)[volume.read("marginal", (part,))[i, j]]}
 
 
-def skeleton_blocks(curves: Sequence[Curve], bicycle: Bicycle) -> Iterator[Block]:
-    """The rows of SKELETON: one per point of a curve traced in the designs of a bicycle."""
+def skeleton_blocks(curves: Sequence[Curve], family: Family) -> Iterator[Block]:
+    """The rows of SKELETON: one per point of a curve traced in the designs of a family."""
     for number, curve in enumerate(curves, 1):
         n = len(curve.x)
 
@@ -101,7 +101,7 @@ def skeleton_blocks(curves: Sequence[Curve], bicycle: Bicycle) -> Iterator[Block
 
         yield {
             "curve": np.full(n, number, np.int32), "name": column(curve.name), "closes": column(curve.closes),
-            "point": np.arange(1, n + 1, dtype=np.int32), **_designs(curve.x, curve.y, bicycle),
+            "point": np.arange(1, n + 1, dtype=np.int32), **_designs(curve.x, curve.y, family),
             "V": curve.V, "start": column(curve.ends[0]), "end": column(curve.ends[1]),
         }  # fmt: skip
 
@@ -158,8 +158,15 @@ def sensitivity_blocks(records: Sequence[Mapping[str, Any]]) -> Iterator[Block]:
             yield {"interval": np.full(len(rows), number, np.int32), **columns}
 
 
-def _designs(lam: Floats, sigma: Floats, bicycle: Bicycle) -> Block:
-    return cast("Block", design_record(lam, sigma, bicycle))
+def columns(columns: Columns, family: Family) -> Columns:
+    """The columns of a table of designs, behind those of a family's parameters that it does not have."""
+    return {p.name: ("float64", p.unit) for p in family.parameters} | {**columns}
+
+
+def _designs(x: Floats, y: Floats, family: Family) -> Block:
+    lam, sigma, machine = family.geometry(x, y)
+    lam, sigma, _ = np.broadcast_arrays(lam, sigma, x)
+    return {**cast("Block", design_record(lam, sigma, machine)), family.x: x, family.y: y}
 
 
 def save_table(columns: Columns, blocks: Iterable[Block], path: Path, about: Mapping[str, str]) -> None:

@@ -8,9 +8,14 @@ from typing import NamedTuple
 
 from bikestab import __version__
 from bikestab.export.meshes import readable_scale, save_mesh
-from bikestab.export.tables import INTERVALS, SKELETON, interval_blocks, save_table, skeleton_blocks
-from bikestab.family import Family
-from bikestab.fields import AXES
+from bikestab.export.tables import (
+    INTERVALS,
+    SKELETON,
+    columns,
+    interval_blocks,
+    save_table,
+    skeleton_blocks,
+)
 from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import Mesh, region_mesh
 from bikestab.volume import Volume, check_ranges
@@ -30,7 +35,7 @@ def export_intervals(volume: Volume, paths: Paths) -> Counts:
     """Write the stable intervals of every design, one per row. Raises as ``save_table``."""
     stable = volume.read("upper") > 0
     for path in paths:
-        save_table(INTERVALS, interval_blocks(volume), Path(path), about(volume))
+        save_table(columns(INTERVALS, volume.family), interval_blocks(volume), Path(path), about(volume))
     designs = stable[..., 0].size
     return Counts(int(stable.sum()), designs, designs - int(stable.any(axis=-1).sum()))
 
@@ -38,14 +43,15 @@ def export_intervals(volume: Volume, paths: Paths) -> Counts:
 def export_skeleton(volume: Volume, paths: Paths) -> list[Curve]:
     """Write the curves where intervals appear, vanish or get another end; what was written.
 
-    They are traced through the volume's (λ, σ), and at all speeds, since two of them are at infinite ones.
-    Raises as ``save_table``.
+    They are traced through the volume's plane of designs, and at all speeds, since two of them are at
+    infinite ones. Raises as ``save_table``.
     """
-    check_ranges(volume, ("lam", "sigma"), "the skeleton")
-    lam, sigma, _ = _box(volume)
-    curves = trace(Family(volume.bicycle, volume.model), lam, sigma)
+    check_ranges(volume, volume.axes[:2], "the skeleton")
+    x, y, _ = _box(volume)
+    family = volume.family
+    curves = trace(family, x, y)
     for path in paths:
-        save_table(SKELETON, skeleton_blocks(curves, volume.bicycle), Path(path), about(volume))
+        save_table(columns(SKELETON, family), skeleton_blocks(curves, family), Path(path), about(volume))
     return curves
 
 
@@ -54,15 +60,15 @@ def export_mesh(
 ) -> tuple[Mesh, Sequence[float]]:
     """Write the boundary within the volume's box, unless it has none there; the mesh, and its axes' factors.
 
-    ``cells`` are the triangles along tilt and along trail, and ``scale`` (3,) the factors of λ, σ and V, by
-    default round ones. Raises as ``save_mesh``.
+    ``cells`` are the triangles along each of the two parameters, and ``scale`` (3,) the factors of these
+    and V, by default round ones. Raises as ``save_mesh``.
     """
-    check_ranges(volume, AXES, "a mesh")
+    check_ranges(volume, volume.axes, "a mesh")
     box = _box(volume)
-    mesh = region_mesh(Family(volume.bicycle, volume.model), *box, cells=cells)
+    mesh = region_mesh(volume.family, *box, cells=cells)
     factors = readable_scale(*zip(*box, strict=True)).tolist() if scale is None else scale
     for path in paths if len(mesh.triangles) else ():
-        save_mesh(mesh, Path(path), factors, about(volume))
+        save_mesh(mesh, Path(path), factors, about(volume), units_of(volume))
     return mesh, factors
 
 
@@ -75,5 +81,10 @@ def about(volume: Volume) -> dict[str, str]:
     }  # fmt: skip
 
 
+def units_of(volume: Volume) -> dict[str, str]:
+    """The units of the volume's axes, by their names."""
+    return {**{p.name: p.unit for p in volume.family.parameters}, "V": "m/s"}
+
+
 def _box(volume: Volume) -> list[tuple[float, float]]:
-    return [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in AXES)]
+    return [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in volume.axes)]

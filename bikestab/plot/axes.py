@@ -9,11 +9,29 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from bikestab.bicycle import Bicycle
+from bikestab.family import Family
 from bikestab.model import Model
 
 LABELS = {"lam": "steering-axis tilt λ [rad]", "sigma": "trail / wheelbase σ", "V": "speed V [m/s]"}
 SYMBOLS = {"lam": "λ", "sigma": "σ", "V": "V"}
+_WHEELBASES = {"w", "c"}  # with which a trail is no fixed multiple of σ
 HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
+
+
+def labels_of(family: Family) -> dict[str, str]:
+    """What stands beside the axes of a family and V."""
+    named = {p.name: f"{p.meaning} {p.symbol} [{p.unit}]" for p in family.parameters}
+    return {**named, **{name: text for name, text in LABELS.items() if name in {*named, "V"}}}
+
+
+def label_family(ax: Axes, x: str, y: str, family: Family) -> None:
+    """Labels for two of a family's parameters and V; of tilt and trail those of ``label_axes``."""
+    if {x, y} <= LABELS.keys() and not _WHEELBASES & {family.x, family.y}:
+        label_axes(ax, x, y, family.bicycle.c)
+        return
+    labels = labels_of(family)
+    ax.set_xlabel(labels[x])
+    ax.set_ylabel(labels[y])
 
 
 def label_axes(ax: Axes, x: str, y: str, wheelbase: float) -> None:
@@ -24,7 +42,7 @@ def label_axes(ax: Axes, x: str, y: str, wheelbase: float) -> None:
     if x == "lam":
         top = ax.secondary_xaxis("top", functions=(head_angle, _tilt))
         top.set_xlabel("head angle [°]")
-    else:
+    elif x == "sigma":
         top = ax.secondary_xaxis("top", functions=to_trail)
         top.set_xlabel("trail [m]")
     if y == "sigma":

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Literal
 
 from bikestab.config.scanconfig import ScanConfig
-from bikestab.fields import AXES
 from bikestab.plot import region
 from bikestab.plot.files import save, slice_name
 from bikestab.plot.slices import draw_slice, on_grid
@@ -20,9 +19,11 @@ def draw_pictures(config: ScanConfig, path: str | Path, tell: Callable[[str], No
     """Draw the pictures of the volume at ``path`` beside it; ``tell`` is called with what cannot be drawn."""
     if len(config.members) > MOST_DRAWN:
         values = " ".join(f"--at {name}={value:g}" for name, value in config.members[0].values.items())
+        x, _, _ = config.grid.names
+        plane = "--lam VALUE" if x == "lam" else f"--at {x}=VALUE"
         tell(
             f"note: pictures of {len(config.members)} machines are not drawn; draw one with, for example, "
-            f"'bikestab slice {path} --lam VALUE {values}'"
+            f"'bikestab slice {path} {plane} {values}'"
         )
         return []
     with Volume(path) as volume:
@@ -49,7 +50,7 @@ def _of_one(
 ) -> list[Path]:
     folder = volume.path.parent
     pictures: list[Path] = []
-    if all(len(volume.axis(name)) > 1 for name in AXES):
+    if all(len(volume.axis(name)) > 1 for name in volume.axes):
         pictures += _region(volume, folder / slice_name(values, "region"), tell)
     fields: tuple[Literal["growth_rate", "probability"], ...] = ("growth_rate", "probability")
     for plane in config.slices:

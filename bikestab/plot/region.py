@@ -14,10 +14,9 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
-from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.model import Floats
-from bikestab.plot.axes import LABELS, remarks
+from bikestab.plot.axes import LABELS, labels_of, remarks
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import STRAIGHT, legend_below, straight_designs, straight_entry
 from bikestab.plot.settings import own_settings
@@ -36,16 +35,19 @@ _SCALE = (1.0, 1.0, 0.85)  # of the drawn box
 @own_settings()
 def draw_region(volume: Volume) -> Figure:
     """The boundary surface within the volume's axes, weave and capsize sheets in two colours."""
-    box = [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in AXES)]
-    family = Family(volume.bicycle, volume.model)
+    box = [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in volume.axes)]
+    family = volume.family
+    labels = labels_of(family)
     mesh = region_mesh(family, box[0], box[1], box[2], cells=_CELLS)
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     bicycle = volume.bicycle
-    lam, sigma = straight_designs(bicycle, box[0], box[1])
-    ax.plot(lam, sigma, box[2][0], zorder=0, **STRAIGHT)  # on the floor, under the surface
-    handles = draw_mesh(ax, mesh, box)
-    if not np.isnan(sigma).all():
+    straight = volume.axes == AXES
+    if straight:
+        lam, sigma = straight_designs(bicycle, box[0], box[1])
+        ax.plot(lam, sigma, box[2][0], zorder=0, **STRAIGHT)  # on the floor, under the surface
+    handles = draw_mesh(ax, mesh, box, [labels[name] for name in volume.axes])
+    if straight and not np.isnan(sigma).all():
         handles.append(straight_entry("smaller σ"))
     if handles:
         legend_below(figure, handles, ncols=2, handlelength=2)
@@ -54,10 +56,13 @@ def draw_region(volume: Volume) -> Figure:
     return figure
 
 
-def draw_mesh(ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]]) -> list[Patch | Line2D]:
+def draw_mesh(
+    ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]], labels: Sequence[str] = (*LABELS.values(),)
+) -> list[Patch | Line2D]:
     """The surface in axes that show the box λ [rad] × σ × V [m/s]; words where there is none.
 
-    Returns what the legend has to say. The axes must have been made with ``computed_zorder=False``.
+    Returns what the legend has to say. The axes must have been made with ``computed_zorder=False``; they get
+    the ``labels``.
     """
     handles: list[Patch | Line2D] = []
     if len(mesh.triangles):
@@ -67,7 +72,7 @@ def draw_mesh(ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]]) -> lis
         ax.text2D(0.5, 0.5, "no stable motion in this box", transform=ax.transAxes, ha="center")
     ax.set(
         xlim=box[0], ylim=box[1], zlim=box[2],
-        xlabel=LABELS["lam"], ylabel=LABELS["sigma"], zlabel=LABELS["V"],
+        xlabel=labels[0], ylabel=labels[1], zlabel=labels[2],
     )  # fmt: skip
     for axis, prune in ((ax.xaxis, None), (ax.yaxis, "lower"), (ax.zaxis, None)):
         axis.set_major_locator(MaxNLocator(6, prune=prune))  # the first labels of x and y would meet

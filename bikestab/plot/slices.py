@@ -11,10 +11,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from bikestab.errors import InputError
-from bikestab.family import Family
 from bikestab.fields import AXES, Axis
 from bikestab.model import Floats
-from bikestab.plot.axes import SYMBOLS, head_angle, label_axes, remarks
+from bikestab.plot.axes import SYMBOLS, head_angle, label_family, remarks
 from bikestab.plot.colours import GROWTH, colour_growth_rate, colour_probability
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import EDGES, draw_on_white, entry, legend_below, straight_fork
@@ -43,14 +42,14 @@ def draw_slice(
     axis = volume.axis(fixed)
     if not axis[0] <= value <= axis[-1]:
         raise InputError(
-            f"{SYMBOLS[fixed]} = {value:g} is outside the volume",
+            f"{SYMBOLS.get(fixed, fixed)} = {value:g} is outside the volume",
             place=str(volume.path),
             hint=f"allowed: {axis[0]:g} ... {axis[-1]:g}",
         )
     near = int(np.argmin(np.abs(axis - value)))
     if field == "probability":
         value = on_grid(volume, fixed, value)
-    section = Section(Family(volume.bicycle, volume.model), fixed, value)
+    section = Section(volume.family, fixed, value)
     check_ranges(volume, section.axes, "a picture")
     x, y = (volume.axis(name) for name in section.axes)
     figure = Figure(figsize=(7.4, 5.2), layout="constrained")
@@ -61,7 +60,7 @@ def draw_slice(
     else:
         colour_growth_rate(figure, ax, x, y, _growth_rate(volume, section, fixed, x, y, near))
         handles = _stable_region(ax, section, x, y)
-    if fixed == "V" and handles:
+    if volume.axes == AXES and fixed == "V" and handles:
         ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
         handles += straight_fork(ax, volume.bicycle)
     legend_below(figure, handles)
@@ -83,7 +82,7 @@ def _same(axis: Floats, a: float, b: float) -> bool:
 
 def _stored(volume: Volume, field: str, fixed: Axis, at: int) -> Floats:
     """A field of the volume in a plane of its grid, at (y, x)."""
-    index = tuple(at if name == fixed else slice(None) for name in AXES)
+    index = tuple(at if name == fixed else slice(None) for name in volume.axes)
     return np.transpose(volume.read(field, index))  # the file's first axis is along x
 
 
@@ -128,13 +127,13 @@ def _edges(ax: Axes, section: Section, x: Floats, y: Floats, word: str = "bounda
 
 
 def _decorate(ax: Axes, volume: Volume, section: Section) -> None:
-    bicycle = section.family.bicycle
-    c = bicycle.c
-    label_axes(ax, *section.axes, c)
-    where = {
-        "lam": f"λ = {section.value:.6g} rad (head angle {head_angle(section.value):.2f}°)",
-        "sigma": f"σ = {section.value:.6g} (trail {section.value * c:.4g} m)",
-        "V": f"V = {section.value:.6g} m/s",
-    }[section.fixed]
-    what = f"{short(bicycle.name)}: {where}{remarks(bicycle, section.family.model)}"
+    family, bicycle, value = section.family, section.family.bicycle, section.value
+    label_family(ax, *section.axes, family)
+    where = {p.name: f"{p.symbol} = {value:.6g} {p.unit}".removesuffix(" 1") for p in family.parameters}
+    where["V"] = f"V = {value:.6g} m/s"
+    if "lam" in where:
+        where["lam"] += f" (head angle {head_angle(value):.2f}°)"
+    if volume.axes == AXES:
+        where["sigma"] += f" (trail {value * bicycle.c:.4g} m)"
+    what = f"{short(bicycle.name)}: {where[section.fixed]}{remarks(bicycle, family.model)}"
     set_title(ax, volume.title, what)

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.errors import ScanError
-from bikestab.machines import Machines
-from bikestab.model import Floats, exact_table
+from bikestab.model import Floats
 from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, condition, conditions
 from bikestab.scan.agreement import AGREEMENT, Agreement, by_rounding, size_of_terms
@@ -102,13 +101,13 @@ class Bracketing:
 
 
 def _tables(tile: Tile, chosen: NDArray[np.bool_]) -> Floats:
-    """The tables (5, 4, cell) of chosen (…, λ, σ) of a tile."""
-    if not isinstance(tile.bicycle, Machines):
+    """The tables (5, 4, cell) of chosen (…, x, y) of a tile."""
+    if not tile.swept:
         *_, i, j = np.nonzero(chosen)
-        return exact_table(tile.bicycle, tile.lam[i], tile.sigma[j], model=tile.model).value
+        return tile.family.table(tile.x[i], tile.y[j])
     i, j = np.nonzero(chosen.any(axis=tuple(range(len(tile.block)))))
-    table = exact_table(tile.bicycle, tile.lam[i], tile.sigma[j], model=tile.model).value
-    return table[:, :, chosen[..., i, j].reshape(tile.bicycle.number, -1)]
+    table = tile.family.table(tile.x[i], tile.y[j], tile.swept)
+    return table[:, :, chosen[..., i, j].reshape(table.shape[2], -1)]
 
 
 def _whole(parts: list[Brackets]) -> Brackets:

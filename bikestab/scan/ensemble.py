@@ -6,14 +6,14 @@ divided.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.machines import Machines
-from bikestab.model import Floats, Model, characteristic_table
+from bikestab.family import Family
+from bikestab.model import Floats
 from bikestab.speeds import Intervals, intervals_of
 
 _PAIRS = 1 << 15  # of a machine and a (λ, σ), worked on at a time: some 20 MB
@@ -37,32 +37,39 @@ class Statistics(NamedTuple):
 
 
 def ensemble_statistics(
-    machines: Machines, lam: Floats, sigma: Floats, V: Floats, model: Model, quantiles: Sequence[float]
+    family: Family, draws: Mapping[str, Floats], x: Floats, y: Floats, V: Floats, quantiles: Sequence[float]
 ) -> Statistics:
-    """Statistics of machines at the cells λ [rad] and σ [1], both (cell,), and at ascending speeds V [m/s].
+    """Statistics of machines at the cells x and y of a family, both (cell,), and at ascending speeds V [m/s].
 
+    ``draws`` are values (machine,) of the parameters that are drawn, by their names; all others, and the
+    family's two, are those of the cell.
     ``quantiles`` lie between 0 and 1. Of two intervals of equal width the lower counts as the widest.
     Needs memory for the result and for 16 bytes per machine.
     """
-    step = max(_PAIRS // machines.number, 1)
+    step = max(_PAIRS // _number(draws), 1)
     parts = [
-        _of_cells(machines, lam[start : start + step], sigma[start : start + step], V, model, quantiles)
-        for start in range(0, len(lam), step)
+        _of_cells(family, draws, x[start : start + step], y[start : start + step], V, quantiles)
+        for start in range(0, len(x), step)
     ]
     return Statistics(*(np.concatenate(values) for values in zip(*parts, strict=True)))
 
 
+def _number(draws: Mapping[str, Floats]) -> int:
+    return len(next(iter(draws.values())))
+
+
 def _of_cells(
-    machines: Machines, lam: Floats, sigma: Floats, V: Floats, model: Model, quantiles: Sequence[float]
+    family: Family, draws: Mapping[str, Floats], x: Floats, y: Floats, V: Floats, quantiles: Sequence[float]
 ) -> Statistics:
-    number, cells = machines.number, len(lam)
+    number, cells = _number(draws), len(x)
     V1, V2 = np.empty((2, cells, number))
     steps = np.zeros((cells, len(V) + 1), np.int64)
     unbounded = np.zeros(cells, np.int64)
     step = max(_PAIRS // cells, 1)
     for start in range(0, number, step):
         part = slice(start, start + step)
-        intervals = intervals_of(characteristic_table(machines.part(part), lam, sigma, model=model))
+        drawn = {name: values[part, np.newaxis] for name, values in draws.items()}
+        intervals = intervals_of(family.quick_table(x, y, drawn))
         V1[:, part], V2[:, part] = _widest(intervals)
         steps += _steps(intervals, V)
         unbounded += np.count_nonzero(np.isinf(intervals.V2), axis=(0, 2))

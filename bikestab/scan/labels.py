@@ -9,7 +9,7 @@ import numpy as np
 
 from bikestab import __version__
 from bikestab.config.scanconfig import ScanConfig
-from bikestab.fields import AXES
+from bikestab.fields import AXES, Axes
 from bikestab.volume import parameters_text
 
 # value k of ``marginal``: speeds.REASONS[k] in a word
@@ -38,13 +38,15 @@ def file_attributes(config: ScanConfig) -> dict[str, Any]:
         "references": text["references"],
         "bikestab_version": __version__,
         "bicycle": text["bicycle"],
-        "bicycle_parameters": parameters_text(config.machine),
+        "bicycle_parameters": parameters_text(config.family()),
         "warnings": text["warnings"],
         "model": config.model,
         "config": text["config"],
         "config_sha256": text["config_sha256"],
         "complete": np.int32(0),
     }
+    if config.grid.names != AXES:
+        attributes["axes"] = " ".join(config.grid.names)
     if config.ensemble:
         attributes["ensemble_samples"] = config.ensemble.samples
     return attributes
@@ -78,10 +80,10 @@ def _ascii_unit(unit: str) -> str:
     return unit.replace("²", "2").replace("kg m2/s", "kg m2 s-1").replace("m/s2", "m s-2")
 
 
-def add_vtk_view(file: h5py.File, names: tuple[str, ...]) -> None:
-    """ParaView's view of the same arrays: x = V, y = σ, z = λ."""
+def add_vtk_view(file: h5py.File, names: tuple[str, ...], grid: Axes) -> None:
+    """ParaView's view of the same arrays: x = V, y = σ, z = λ, or what the ``grid`` has in place of these."""
     group = file.create_group("VTKHDF", track_order=True)
-    axes = [file[name][()] for name in reversed(AXES)]
+    axes = [file[name][()] for name in reversed(grid)]
     group.attrs["Version"] = np.array([1, 0])
     group.attrs["Type"] = np.bytes_("ImageData")
     group.attrs["WholeExtent"] = np.array([[0, len(axis) - 1] for axis in axes]).ravel()

@@ -19,7 +19,7 @@ from bikestab import yamltext
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.config.variation import Ensemble
 from bikestab.errors import KEPT, NOT_KEPT, InputError, ScanError, dotted
-from bikestab.fields import AXES, FIELDS
+from bikestab.fields import FIELDS
 from bikestab.files import NO_SPACE, beside, linked
 from bikestab.identity import digest
 from bikestab.model import Floats
@@ -61,7 +61,7 @@ def make_folder(config: ScanConfig) -> None:
 def check_size(config: ScanConfig) -> None:
     """Raise InputError if an axis is too long, or the grid asks for more than the disk has."""
     plan, shape = Plan(config), config.grid.shape
-    largest = AXES[int(np.argmax(shape))]
+    largest = config.grid.key(config.grid.names[int(np.argmax(shape))])
     axis = getattr(config.grid, largest)
     key = ("grid", largest, "num" if hasattr(axis, "num") else "values")
     if max(shape) > MOST_VALUES:
@@ -163,7 +163,8 @@ def _differences(volume: Volume, plan: Plan) -> Iterator[str]:
     """What differs in a volume from the one that a plan would give, by its content."""
     config = plan.config
     pairs: dict[str, tuple[Any, Any]] = {"model": (volume.model, config.model)}
-    there, here = json.loads(volume.text("bicycle_parameters")), config.machine.numbers()
+    pairs["axes"] = (" × ".join(volume.axes), " × ".join(config.grid.names))
+    there, here = json.loads(volume.text("bicycle_parameters")), config.family().kept
     pairs |= {name: (there.get(name), value) for name, value in here.items()}
     pairs["fields"] = (" ".join(volume.fields), " ".join(plan.fields))
     axes = {axis.name: axis.values for axis in config.axes}
@@ -171,15 +172,18 @@ def _differences(volume: Volume, plan: Plan) -> Iterator[str]:
     for name, (old, new) in pairs.items():
         if old != new:
             yield f"{name}: {_shown(old)} there, {_shown(new)} here"
-    grid = {f"grid.{name}": (volume.axis(name), config.grid.values(name)) for name in AXES}
+    grid = {
+        f"grid.{name}": (volume.axis(name), config.grid.values(name))
+        for name in config.grid.names
+        if name in volume.axes
+    }
     both = {f"sweep.{name}": (volume.swept[name], axes[name]) for name in axes if name in volume.swept}
     for name, (values, others) in (grid | both).items():
         if not np.array_equal(values, others):
             yield f"{name}: {_range(values)} there, {_range(others)} here"
     if axes and list(axes) == list(volume.swept):
-        machines = [list(member.bicycle.numbers().values()) for member in config.members]
-        values = volume.file["machine"][()].reshape(-1, len(here))
-        if not np.array_equal(values, np.array(machines, float), equal_nan=True):
+        machines = config.kept[1]
+        if not np.array_equal(volume.file["machine"][()].ravel(), machines.ravel(), equal_nan=True):
             yield "the machines of the sweep differ"
     if _ensemble(volume) != (config.ensemble and digest(config.ensemble.meaning)):
         yield f"ensemble: {volume.samples or 'no'} samples there, other ones here"

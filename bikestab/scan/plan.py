@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import ceil, prod
-from typing import Any
 
 import numpy as np
 
 from bikestab.config.scanconfig import ScanConfig
-from bikestab.fields import AXES, FIELDS
-from bikestab.machines import Machines
+from bikestab.fields import FIELDS
+from bikestab.model import Floats
 from bikestab.scan.tile import Tile
 
 _COLUMN, _SAMPLE = 2.0, 1.0  # µs per (λ, σ), per (λ, σ) and sample; on one core
@@ -142,21 +141,24 @@ class Plan:
 
     def __getitem__(self, number: int) -> Tile:
         config, place = self.config, self.place(number)
-        lam, sigma, V = (
-            self._axes[name][i : i + n] for name, i, n in zip(AXES, place[-3:], self.tile[-3:], strict=True)
+        x, y, V = (
+            values[i : i + n] for values, i, n in zip(self._axes, place[-3:], self.tile[-3:], strict=True)
         )
         lowest = place[-1] == 0
-        above = 0.0 if lowest else float(self._axes["V"][place[-1] - 1])
-        bicycles = [config.members[member].bicycle for member in self.members_of(number)]
+        above = 0.0 if lowest else float(self._axes[2][place[-1] - 1])
+        members = self.members_of(number)
+        family, swept = config.family(members[0]), {}
+        if len(members) > 1:
+            family, values = config.family(None), [config.members[member].values for member in members]
+            swept = {name: np.array([[each[name]] for each in values]) for name in values[0]}
         return Tile(
-            bicycles[0] if len(bicycles) == 1 else Machines.of(bicycles),
-            config.model, lam, sigma, V, self.fields, self.chunk, lowest, above, config.ensemble,
-            block=self._block_at(place[:-3]), whole=self.whole,
+            family, x, y, V, self.fields, self.chunk, lowest, above, config.ensemble,
+            block=self._block_at(place[:-3]), whole=self.whole, swept=swept,
         )  # fmt: skip
 
     @cached_property
-    def _axes(self) -> dict[str, Any]:
-        return {name: self.config.grid.values(name) for name in AXES}
+    def _axes(self) -> list[Floats]:
+        return [self.config.grid.values(name) for name in self.config.grid.names]
 
     def seconds(self) -> float:
         """About how long one core takes."""

@@ -6,18 +6,18 @@ A tile needs nothing but itself, so it can be computed by any process or machine
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.bicycle import Bicycle
 from bikestab.critical import Critical, critical
 from bikestab.errors import ScanError
+from bikestab.family import Family
 from bikestab.fields import FIELDS, Points
-from bikestab.machines import Machines
-from bikestab.model import ExactTable, Floats, Model, exact_table
+from bikestab.model import ExactTable, Floats
 from bikestab.routh import CONDITIONS
 from bikestab.scan.agreement import AGREEMENT, Agreement
 from bikestab.scan.chunks import bundled, packed
@@ -37,17 +37,17 @@ _SPEEDS = 256  # of them in a row, at most
 
 @dataclass(frozen=True)
 class Tile:
-    """A part of the grid: λ [rad], σ [1] and V [m/s] of one machine or many, and what is wanted of it.
+    """A part of the grid: x, y and V [m/s] of the families of one machine or many, and what is wanted of it.
 
     ``lowest`` says whether it has the lowest speeds of its (λ, σ): it then also gives what does not depend on
     V. Else ``above`` [m/s] is the last speed of the tile below. ``block`` has the lengths of a sweep's axes,
-    and ``whole`` says whether these are all (λ, σ) of the machines.
+    and ``whole`` says whether these are all cells of the machines. Of many machines ``swept``
+    has a column (machine, 1) of each parameter that the sweep varies.
     """
 
-    bicycle: Bicycle | Machines
-    model: Model
-    lam: Floats
-    sigma: Floats
+    family: Family
+    x: Floats
+    y: Floats
     V: Floats
     fields: tuple[str, ...]
     chunk: tuple[int, ...]
@@ -56,24 +56,23 @@ class Tile:
     ensemble: Ensemble | None = None
     block: tuple[int, ...] = ()
     whole: bool = False
+    swept: Mapping[str, Floats] = field(default_factory=dict)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of values on each axis of a sweep, and of λ, σ and V."""
-        return (*self.block, len(self.lam), len(self.sigma), len(self.V))
+        """Number of values on each axis of a sweep, and of x, y and V."""
+        return (*self.block, len(self.x), len(self.y), len(self.V))
 
     @property
     def cells(self) -> tuple[Floats, Floats]:
-        """λ and σ of each (λ, σ), one after the other."""
-        return np.repeat(self.lam, len(self.sigma)), np.tile(self.sigma, len(self.lam))
+        """X and y of each cell, one after the other."""
+        return np.repeat(self.x, len(self.y)), np.tile(self.y, len(self.x))
 
     def table(self) -> ExactTable:
-        """The table (5, 4, cell) of all (λ, σ) of all machines."""
-        if isinstance(self.bicycle, Machines):
-            table = exact_table(self.bicycle, *self.cells, model=self.model)
-        else:
-            table = exact_table(self.bicycle, self.lam[:, np.newaxis], self.sigma, model=self.model)
-        return table.reshape(5, 4, -1)
+        """The table (5, 4, cell) of all cells of all machines."""
+        if self.swept:
+            return self.family.exact_table(*self.cells, self.swept).reshape(5, 4, -1)
+        return self.family.exact_table(self.x[:, np.newaxis], self.y).reshape(5, 4, -1)
 
 
 class Columns(NamedTuple):
@@ -187,9 +186,8 @@ def field_values(
 def _ensemble(tile: Tile) -> tuple[NDArray[np.float32], Floats]:
     """The probability at each point (cell, V), and the spread of ``Columns``."""
     assert tile.ensemble is not None
-    assert isinstance(tile.bicycle, Bicycle)
-    machines, quantiles = tile.ensemble.machines(tile.bicycle), tile.ensemble.quantiles
-    statistics = ensemble_statistics(machines, *tile.cells, tile.V, tile.model, quantiles)
+    draws, quantiles = tile.ensemble.drawn, tile.ensemble.quantiles
+    statistics = ensemble_statistics(tile.family, draws, *tile.cells, tile.V, quantiles)
     spread = np.column_stack([statistics.somewhere, statistics.unbounded, statistics.V1, statistics.V2])
     return statistics.probability, spread.reshape(*tile.shape[:-1], -1)
 

@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.fields import AXES, COORDINATES, FIELDS, Field
+from bikestab.fields import FIELDS, Field, coordinates
 from bikestab.files import beside, linked
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
@@ -63,6 +63,7 @@ class VolumeWriter:
 
     def __init__(self, file: h5py.File, plan: Plan, sink: Sink) -> None:
         self.file, self.plan, self._sink = file, plan, sink
+        self._grid = plan.config.grid.names
         self._lead = [axis.name for axis in plan.config.axes]
         self._data: dict[str, h5py.Dataset] = {}  # h5py takes long to find them by name
         file.attrs.update(file_attributes(plan.config))
@@ -70,24 +71,24 @@ class VolumeWriter:
             self._scale(swept.name, swept.values, swept.unit, swept.meaning)
         if self._lead:
             self._machines()
-        for axis in AXES:
-            self._scale(axis, plan.config.grid.values(axis), *COORDINATES[axis])
+        for axis, (unit, meaning) in coordinates(plan.config.family()).items():
+            self._scale(axis, plan.config.grid.values(axis), unit, meaning)
         for name in plan.fields:
             self._field(FIELDS[name])
 
     def _machines(self) -> None:
         """The parameters of every machine of the sweep, which the axes alone need not tell."""
-        rows = [list(member.bicycle.numbers().values()) for member in self.plan.config.members]
-        values = np.array(rows, float).reshape(*self.plan.lead, -1)  # NaN for None
+        names, rows = self.plan.config.kept
+        values = rows.reshape(*self.plan.lead, -1)
         self._counter("parameter", values.shape[-1], "number of the machine's parameter")
         data = self.file.create_dataset("machine", data=values, track_order=True)
         for i, axis in enumerate([*self._lead, "parameter"]):
             data.dims[i].attach_scale(self.file[axis])
         describe(data, "", "parameters of each machine in SI units, in the order of the attribute 'names'")
-        data.attrs["names"] = words(tuple(self.plan.config.machine.numbers()))
+        data.attrs["names"] = words(tuple(names))
 
     def _field(self, field: Field) -> None:
-        data = self._create(field.name, AXES, field.dtype, self.plan.chunk, field.unit, field.meaning)
+        data = self._create(field.name, self._grid, field.dtype, self.plan.chunk, field.unit, field.meaning)
         if field.flags:
             flags(data, field.flags)
         if field.masks:
@@ -119,7 +120,7 @@ class VolumeWriter:
             text = f"bound of the error of {name}: the true end for exactly these inputs is within it"
             self._column(f"{name}_error", "interval", np.float64, "m s-1", text)
         text = "what rounding leaves undecided of the number of intervals and of the kinds of their ends"
-        flags(self._create("marginal", ("lam", "sigma"), np.uint8, self.plan.tile[:-1], "1", text), MARGINAL)
+        flags(self._create("marginal", self._grid[:2], np.uint8, self.plan.tile[:-1], "1", text), MARGINAL)
         self._counter("root", max(1, sheets), "number of the sheet of roots")
         self.file.create_group("boundary", track_order=True)
         for name in CONDITIONS:
@@ -136,7 +137,7 @@ class VolumeWriter:
             ("probability_somewhere", "share of the ensemble's machines that have a stable speed"),
             ("probability_unbounded", "share of them that are stable without an upper limit"),
         ):
-            self._create(name, ("lam", "sigma"), np.float64, self.plan.tile[:-1], "1", text)
+            self._create(name, self._grid[:2], np.float64, self.plan.tile[:-1], "1", text)
         for name in ("V1", "V2"):
             end = "lower" if name == "V1" else "upper"
             text = f"quantiles of the {end} end of the widest stable interval, of machines that have one"
@@ -169,8 +170,8 @@ class VolumeWriter:
         group.attrs["bracketed_zeros"] = bracketed.roots
         group.attrs["largest_bracketed_difference"] = bracketed.largest
         group.attrs["largest_bracketed_difference_units"] = np.bytes_("m s-1")
-        if not self._lead and all(uniform(self.file[name][()]) for name in AXES):
-            add_vtk_view(self.file, self.plan.fields)
+        if not self._lead and all(uniform(self.file[name][()]) for name in self._grid):
+            add_vtk_view(self.file, self.plan.fields, self._grid)
         self.file.attrs["stable_points"] = stable_points
         self.file.attrs["complete"] = np.int32(1)
 
@@ -192,7 +193,7 @@ class VolumeWriter:
 
     def _column(self, name: str, last: str, dtype: type, unit: str, text: str) -> h5py.Dataset:
         chunk = (*self.plan.tile[:-1], len(self.file[last]))
-        return self._create(name, ("lam", "sigma", last), dtype, chunk, unit, text)
+        return self._create(name, (*self._grid[:2], last), dtype, chunk, unit, text)
 
     def _write_column(self, name: str, place: tuple[int, ...], values: NDArray) -> None:
         data, empty = self._data[name], np.nan if values.dtype == float else 0

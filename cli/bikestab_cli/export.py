@@ -55,7 +55,7 @@ class _Scale(click.ParamType):
 @at_option
 @click.option(
     "--cells", type=click.IntRange(10, 400), default=100, show_default=True,
-    help="Triangles of the mesh along tilt and along trail.",
+    help="Triangles of the mesh along each of the two parameters.",
 )  # fmt: skip
 @click.option(
     "--scale", type=_Scale(), metavar="LAM,SIGMA,V",
@@ -112,7 +112,7 @@ def command(
         if meshes:
             mesh, factors = export_mesh(opened, meshes, cells=cells, scale=scale)
             if len(mesh.triangles):
-                _echo(meshes, f"{_mesh_told(mesh)}; {scale_text(factors)}")
+                _echo(meshes, f"{_mesh_told(mesh)}; {scale_text(factors, opened.axes)}")
             else:
                 click.echo(f"no surface in the box: no mesh is written ({', '.join(meshes)})")
 

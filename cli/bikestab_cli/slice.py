@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import click
 from bikestab_cli.options import (
@@ -17,6 +17,9 @@ from bikestab_cli.options import (
     told_as_options,
 )
 from bikestab_cli.output import tell_file
+
+if TYPE_CHECKING:
+    from bikestab.volume import Volume
 
 
 @click.command("slice")
@@ -46,9 +49,9 @@ def command(
 ) -> None:  # fmt: skip
     """Draw any plane of a volume.
 
-    One of the three axes is fixed. VOLUME is a volume.h5 or its folder. The value need not be on the
-    grid: the growth rate is then computed for that plane, while a probability is that of the nearest
-    plane. The boundary curves are exact in either case.
+    One of the three axes is fixed; of a grid over other parameters by --at, as --at mB=85. VOLUME is a
+    volume.h5 or its folder. The value need not be on the grid: the growth rate is then computed for that
+    plane, while a probability is that of the nearest plane. The boundary curves are exact in either case.
 
     \b
     Examples:
@@ -61,28 +64,40 @@ def command(
     from bikestab.plot.slices import draw_slice, on_grid
     from bikestab.volume import Volume
 
-    axes = {"lam": lam, "sigma": sigma, "V": V, "head_angle": head_angle, "trail": trail}
-    given = {name: value for name, value in axes.items() if value is not None}
-    if len(given) != 1:
-        raise click.UsageError(
-            "give one of --lam, --sigma and --V, for example --lam 0.2; or --head-angle or --trail",
-            click.get_current_context(),
-        )
-    ((fixed, value),) = given.items()
+    planes = {"lam": lam, "sigma": sigma, "V": V, "head_angle": head_angle, "trail": trail}
+    given = {name: value for name, value in planes.items() if value is not None}
     with Volume(volume) as opened:
-        if fixed in ("head_angle", "trail"):
+        on_axis = {name: machine.pop(name) for name in opened.axes if name in machine}
+        fixed, value = _plane(opened, given | on_axis)
+        if fixed in ("head_angle", "trail") and fixed not in opened.axes:
             bicycle = opened.at(machine).bicycle
             with told_as_options():
                 design = design_given({fixed: value}, bicycle.c, bicycle.R2)
             fixed, value = ("lam", float(design[0])) if fixed == "head_angle" else ("sigma", float(design[1]))
         field: Literal["growth_rate", "probability"] = "probability" if probability else "growth_rate"
-        if probability and (near := on_grid(opened, fixed, value)) != value:  # type: ignore[arg-type]
+        if probability and (near := on_grid(opened, fixed, value)) != value:
             click.echo(f"note: the nearest plane of the grid is drawn, {fixed} = {near:.6g}", err=True)
             value = near
         name = slice_name({fixed: value, **machine}, field)
         path = Path(output) if output else opened.path.parent / name
         if not path.suffix:
             path = path.with_name(path.name + ".png")
-        figure = draw_slice(opened.at(machine), fixed, value, field)  # type: ignore[arg-type]  # an axis
+        figure = draw_slice(opened.at(machine), fixed, value, field)
         save(figure, path)
     tell_file(path)
+
+
+def _plane(volume: Volume, given: dict[str, float]) -> tuple[str, float]:
+    """The one axis that is fixed, and its value."""
+    if len(given) == 1:
+        ((name, value),) = given.items()
+        measured = {"head_angle": "lam", "trail": "sigma"}
+        if name in volume.axes or measured.get(name) in volume.axes:
+            return name, value
+    context, (x, y, _) = click.get_current_context(), volume.axes
+    if (x, y) == ("lam", "sigma"):
+        problem = "give one of --lam, --sigma and --V, for example --lam 0.2; or --head-angle or --trail"
+        raise click.UsageError(problem, context)
+    middle = float(volume.axis(x)[len(volume.axis(x)) // 2])
+    problem = f"the volume is over {x}, {y} and V: give one of --at {x}=VALUE, --at {y}=VALUE and --V"
+    raise click.UsageError(f"{problem}, for example --at {x}={middle:g}", context)

@@ -400,7 +400,7 @@ def test_skeleton_is_every_point_of_every_curve(tmp_path):
               ("box", "fold"))
     )  # fmt: skip
     for ending in (".csv", ".parquet"):
-        save_table(SKELETON, skeleton_blocks(curves, bicycle), tmp_path / f"s{ending}", ABOUT)
+        save_table(SKELETON, skeleton_blocks(curves, Family(bicycle)), tmp_path / f"s{ending}", ABOUT)
     rows = read_csv(tmp_path / "s.csv")
     table = parquet.read_table(tmp_path / "s.parquet")
     assert [{k: as_text(v) for k, v in row.items()} for row in table.to_pylist()] == rows
@@ -419,7 +419,10 @@ def test_skeleton_is_every_point_of_every_curve(tmp_path):
 def test_empty_tables_have_a_head(tmp_path):
     for ending in (".csv", ".parquet"):
         save_table(
-            SKELETON, skeleton_blocks([], Bicycle.preset("dikarev1981")), tmp_path / f"s{ending}", ABOUT
+            SKELETON,
+            skeleton_blocks([], Family(Bicycle.preset("dikarev1981"))),
+            tmp_path / f"s{ending}",
+            ABOUT,
         )
     assert (tmp_path / "s.csv").read_text() == ",".join(SKELETON) + "\n"
     table = parquet.read_table(tmp_path / "s.parquet")

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import ScanError
+from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS
 from bikestab.scan import bracketing
@@ -23,18 +24,18 @@ LAM, SIGMA, V = np.linspace(0, 0.3, 16), np.linspace(0, 0.15, 12), np.linspace(0
 
 
 def tile_of(bicycle, lam=LAM, sigma=SIGMA, V=V, model="refined"):
-    return Tile(bicycle, model, lam, sigma, V, (), (32, 32, 32), lowest=True)
+    return Tile(Family(bicycle, model), lam, sigma, V, (), (32, 32, 32), lowest=True)
 
 
 def roots_of(tile):
     return critical_roots(
-        characteristic_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model)
+        characteristic_table(tile.family.bicycle, tile.x[:, np.newaxis], tile.y, model=tile.family.model)
     )
 
 
 def seen(tile, roots=None):
     """What is found in a tile that is the whole grid."""
-    witness = Bracketing(tile.V, len(tile.lam) * len(tile.sigma))
+    witness = Bracketing(tile.V, len(tile.x) * len(tile.y))
     witness.add((0, 0), tile, roots_of(tile) if roots is None else roots, np.zeros(tile.shape[:2], bool))
     return witness.agreement()
 
@@ -148,7 +149,7 @@ def test_what_is_found_does_not_depend_on_the_tiles(columns, monkeypatch):
     parts = Bracketing(V, len(LAM) * len(SIGMA))
     for i in (8, 0):
         for j in (0, 5):
-            part = tile_of(tile.bicycle, LAM[i : i + 8], SIGMA[j : j + (5, 7)[j > 0]])
+            part = tile_of(tile.family.bicycle, LAM[i : i + 8], SIGMA[j : j + (5, 7)[j > 0]])
             parts.add((i, j), part, roots_of(part), np.zeros(part.shape[:2], bool))
     assert parts.agreement() == whole
 

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from bikestab.bicycle import Bicycle
-from bikestab.machines import Machines, uniforms
+from bikestab.family import Family
+from bikestab.machines import uniforms
 from bikestab.model import MODELS, characteristic_table
 from bikestab.routh import conditions, stable
 from bikestab.scan import ensemble
@@ -90,7 +91,7 @@ def assert_equal_to_loops(found, expected):
 @pytest.mark.parametrize("model", MODELS)
 def test_one_machine_after_another(model):
     bicycle, samples = dikarev()
-    found = ensemble_statistics(Machines.drawn(bicycle, samples), LAM, SIGMA, V, model, QUANTILES)
+    found = ensemble_statistics(Family(bicycle, model), samples, LAM, SIGMA, V, QUANTILES)
     expected = by_loops(one_by_one(bicycle, samples), LAM, SIGMA, V, model)
     assert_equal_to_loops(found, expected)
     if model == "refined":  # the cells are worth something
@@ -114,7 +115,7 @@ def test_random_machines(machine, data, cells):
         for name in (mass, height)
     }
     lam, sigma = np.array(cells).T
-    found = ensemble_statistics(Machines.drawn(bicycle, samples), lam, sigma, V, "refined", QUANTILES)
+    found = ensemble_statistics(Family(bicycle), samples, lam, sigma, V, QUANTILES)
     assert_equal_to_loops(found, by_loops(one_by_one(bicycle, samples), lam, sigma, V, "refined"))
 
 
@@ -124,7 +125,7 @@ def test_a_narrow_ensemble_is_the_machine_itself(name):
     lam = np.array([bicycle.lam or 0.1, 0.1, 0.3])
     sigma = np.array([bicycle.sigma or 0.15, 0.15, 0.08])
     samples = {"g": np.nextafter(bicycle.g, [0, bicycle.g, 100])}
-    found = ensemble_statistics(Machines.drawn(bicycle, samples), lam, sigma, V[1:], "refined", QUANTILES)
+    found = ensemble_statistics(Family(bicycle), samples, lam, sigma, V[1:], QUANTILES)
     table = characteristic_table(bicycle, lam, sigma)
     np.testing.assert_array_equal(found.probability, stable(table[..., np.newaxis], V[1:]))
     exact = intervals_of(table)
@@ -150,8 +151,8 @@ def test_the_exact_share_of_one_uniform_parameter(bicycle, name, low, high, lam,
     """Within five standard deviations of a binomial count; the share from roots in the parameter."""
     bicycle, number = Bicycle.preset(bicycle), 20_000
     speeds = np.array([2.0, 3.0, 3.45, 3.6, 3.8, 4.5, 5.0, 6.0, 8.0, 12.0])
-    drawn = Machines.drawn(bicycle, {name: between(name, number, low, high)})
-    found = ensemble_statistics(drawn, np.array([lam]), np.array([sigma]), speeds, "refined", [0.5])
+    samples = {name: between(name, number, low, high)}
+    found = ensemble_statistics(Family(bicycle), samples, np.array([lam]), np.array([sigma]), speeds, [0.5])
     between_0_and_1 = 0
     for V, share in zip(speeds, found.probability[0], strict=True):
         exact = exact_share(bicycle, name, low, high, lam, sigma, V)
@@ -178,19 +179,21 @@ def exact_share(bicycle, name, low, high, lam, sigma, V):
 
 @pytest.mark.parametrize("pairs", [1, 7, 40, 100, 1 << 20])
 def test_the_division_of_the_work_does_not_matter(pairs, monkeypatch):
-    drawn = Machines.drawn(*dikarev(number=37))
-    whole = ensemble_statistics(drawn, LAM, SIGMA, V, "refined", QUANTILES)
+    bicycle, samples = dikarev(number=37)
+    whole = ensemble_statistics(Family(bicycle), samples, LAM, SIGMA, V, QUANTILES)
     monkeypatch.setattr(ensemble, "_PAIRS", pairs)
-    divided = ensemble_statistics(drawn, LAM, SIGMA, V, "refined", QUANTILES)
+    divided = ensemble_statistics(Family(bicycle), samples, LAM, SIGMA, V, QUANTILES)
     for a, b in zip(whole, divided, strict=True):
         np.testing.assert_array_equal(a, b)
 
 
 def test_cells_and_speeds_do_not_matter_to_each_other():
-    drawn = Machines.drawn(*dikarev())
-    whole = ensemble_statistics(drawn, LAM, SIGMA, V, "refined", QUANTILES)
+    bicycle, samples = dikarev()
+    family = Family(bicycle)
+    whole = ensemble_statistics(family, samples, LAM, SIGMA, V, QUANTILES)
     for i in range(len(LAM)):
-        alone = ensemble_statistics(drawn, LAM[i : i + 1], SIGMA[i : i + 1], V[10:20], "refined", QUANTILES)
+        part = LAM[i : i + 1], SIGMA[i : i + 1], V[10:20]
+        alone = ensemble_statistics(family, samples, *part, QUANTILES)
         np.testing.assert_array_equal(alone.probability[0], whole.probability[i, 10:20])
         np.testing.assert_array_equal(alone.V1[0], whole.V1[i])
         np.testing.assert_array_equal(alone.V2[0], whole.V2[i])
@@ -200,8 +203,7 @@ def test_the_order_of_the_parameters_does_not_matter():
     bicycle, samples = dikarev()
     backwards = dict(reversed(samples.items()))
     first, second = (
-        ensemble_statistics(Machines.drawn(bicycle, s), LAM, SIGMA, V, "refined", QUANTILES)
-        for s in (samples, backwards)
+        ensemble_statistics(Family(bicycle), s, LAM, SIGMA, V, QUANTILES) for s in (samples, backwards)
     )
     for a, b in zip(first, second, strict=True):
         np.testing.assert_array_equal(a, b)
@@ -218,10 +220,12 @@ def fake_intervals(monkeypatch, *of_each_machine):
     error = np.zeros_like(V1)
     known = Intervals(V1, V2, kind, kind, error, error, 0 * kind)
     monkeypatch.setattr(ensemble, "intervals_of", lambda _: known)
-    drawn = Machines.drawn(Bicycle.preset("dikarev1981"), {"m1": np.linspace(60, 90, len(of_each_machine))})
+    samples = {"m1": np.linspace(60, 90, len(of_each_machine))}
 
     def statistics(V, quantiles):
-        return ensemble_statistics(drawn, LAM[:1], SIGMA[:1], np.array(V), "refined", quantiles)
+        return ensemble_statistics(
+            Family(Bicycle.preset("dikarev1981")), samples, LAM[:1], SIGMA[:1], np.array(V), quantiles
+        )
 
     return statistics
 

@@ -46,7 +46,7 @@ def test_tiles_cover_the_grid_exactly_once(plan):
     for number in range(len(plan)):
         place, tile = plan.place(number), plan[number]
         seen[tuple(slice(i, i + n) for i, n in zip(place, tile.shape, strict=True))] += 1
-        for values, axis, i in zip((tile.lam, tile.sigma, tile.V), axes, place[-3:], strict=True):
+        for values, axis, i in zip((tile.x, tile.y, tile.V), axes, place[-3:], strict=True):
             np.testing.assert_array_equal(values, axis[i : i + len(values)])
     assert seen.min() == seen.max() == 1
     assert seen.size == plan.points
@@ -91,9 +91,13 @@ def test_a_tile_has_the_machines_of_its_place(plan):
         tile, place = plan[number], plan.place(number)
         own = numbers[tuple(slice(i, i + n) for i, n in zip(place, tile.block, strict=False))]
         assert list(plan.members_of(number)) == own.ravel().tolist()
+        if tile.swept:
+            assert tile.family.bicycle == plan.config.machine
+            assert {*tile.swept} == {*plan.config.sweep}
         for name in ("delta", "m1", "h1", "c"):
             expected = np.array([getattr(bicycles[i], name) for i in own.ravel()])
-            np.testing.assert_array_equal(np.ravel(getattr(tile.bicycle, name)) + 0 * expected, expected)
+            machines = tile.swept.get(name, getattr(tile.family.bicycle, name))
+            np.testing.assert_array_equal(np.ravel(machines) + 0 * expected, expected)
 
 
 @pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
@@ -120,7 +124,7 @@ def test_each_machine_of_a_sweep_has_its_own_tiles():
     assert len(plan) == 6 * 4
     for number in range(len(plan)):
         i, j = plan.place(number)[:2]
-        bicycle = plan[number].bicycle
+        bicycle = plan[number].family.bicycle
         assert (bicycle.delta, bicycle.m1) == ([0, 1, 5][i], [70, 80][j])
 
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle
-from bikestab.machines import Machines
+from bikestab.family import Family
 from bikestab.model import exact_table
 from bikestab.routh import CONDITIONS
 from bikestab.scan.planes import sheets_of_planes
@@ -73,9 +73,11 @@ def test_tables_of_machines_put_together_are_those_of_each(name):
     """To the last bit, with an entry that cancels identically, or is not there, in some of them alone."""
     bicycle = Bicycle.preset(name)
     key, values = ("mB", (60, 75.5, 100)) if "mB" in bicycle.notation else ("m1", (60, 75.5, 100))
-    bicycles = [bicycle.replaced({key: value, "delta": delta}) for value in values for delta in (0, 1.5)]
+    pairs = [(value, delta) for value in values for delta in (0, 1.5)]
+    bicycles = [bicycle.replaced({key: value, "delta": delta}) for value, delta in pairs]
     lam, sigma = np.linspace(-0.2, 0.6, 5), np.linspace(-0.1, 0.2, 5)
-    together = exact_table(Machines.of(bicycles), lam, sigma)
+    masses, damping = np.array(pairs).T[..., np.newaxis]
+    together = Family(bicycle).exact_table(lam, sigma, {key: masses, "delta": damping})
     for i, each in enumerate(bicycles):
         alone = exact_table(each, lam, sigma)
         for whole, own in zip(together, alone, strict=True):
@@ -87,6 +89,6 @@ def test_a_rider_of_several_masses():
     own = Bicycle.preset("meijaard2007").given
     bicycle = Bicycle.from_mapping({**own, "mB": 15, "rider": rider})
     bicycles = [bicycle.replaced({"rider.m": m}) for m in (60, 100)]
-    together = exact_table(Machines.of(bicycles), 0.3, 0.08)
+    together = Family(bicycle).exact_table(0.3, 0.08, {"rider.m": np.array([[60.0], [100.0]])})
     for i, each in enumerate(bicycles):
         np.testing.assert_array_equal(together.value[:, :, i, 0], exact_table(each, 0.3, 0.08).value)

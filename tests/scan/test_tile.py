@@ -10,6 +10,7 @@ import pytest
 from bikestab.bicycle import Bicycle
 from bikestab.critical import critical
 from bikestab.errors import ScanError
+from bikestab.family import Family
 from bikestab.model import exact_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scan.chunks import bundled, places, unbundled
@@ -27,11 +28,11 @@ CHUNK = (4, 4, 8)
 def tile_of(bicycle=DIKAREV, shape=(9, 7, 30), fields=FIELDS, lowest=True, model="refined", **more):
     n, m, k = shape
     lam, sigma, V = np.linspace(0, 0.3, n), np.linspace(0, 0.15, m), np.linspace(0, 15, k)
-    return Tile(bicycle, model, lam, sigma, V, fields, CHUNK, lowest, **more)
+    return Tile(Family(bicycle, model), lam, sigma, V, fields, CHUNK, lowest, **more)
 
 
 def table_of(tile):
-    return exact_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model).value
+    return tile.family.table(tile.x[:, np.newaxis], tile.y)
 
 
 def fields_of(tile, finished):
@@ -84,7 +85,7 @@ def test_columns_are_the_intervals_and_roots(bicycle):
     tile = tile_of(bicycle)
     finished = compute(tile)
     found = Columns.from_bytes(finished.columns)
-    table = exact_table(tile.bicycle, tile.lam[:, np.newaxis], tile.sigma, model=tile.model)
+    table = exact_table(tile.family.bicycle, tile.x[:, np.newaxis], tile.y, model=tile.family.model)
     for values, expected in zip(found.intervals, intervals_of(table), strict=True):
         np.testing.assert_array_equal(values, expected)
         assert values.dtype == expected.dtype

@@ -1,0 +1,112 @@
+"""A machine and values of any parameters, tilt, trail and fork offset among them → machines with λ and σ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from bikestab.bicycle import Bicycle
+from bikestab.errors import InputError
+from bikestab.geometry import offset_of, tilt_from, trail_from
+from bikestab.limits import check_tilt, check_trail
+from bikestab.machines import Machines
+
+TILT = {"lam": "steering-axis tilt [rad]", "head_angle": "head angle, 90° − tilt [rad]"}
+TRAIL = {"sigma": "trail divided by the wheelbase [1]", "trail": "trail along the ground [m]"}
+OFFSET = {"offset": "fork offset, of the front axle ahead of the steering axis [m]"}
+FRONT = {**TILT, **TRAIL, **OFFSET}
+
+
+def varied(bicycle: Bicycle, values: Mapping[str, Any]) -> tuple[Bicycle | Machines, Any, Any]:
+    """The machine or machines, λ [rad] and σ where some parameters have other ``values``, SI, unchecked.
+
+    Values are arrays that broadcast together, of the bicycle's notation, the two parts' symbols, or FRONT.
+    What is not given stays as the bicycle has it: its σ in the paper's notation, its trail ``c`` in that of
+    Meijaard et al. An offset keeps the tilt, unless the trail is given with it.
+    """
+    numbers = {name: np.asarray(value, dtype=float) for name, value in values.items()}
+    others = {name: value for name, value in numbers.items() if not front_of(bicycle, name)}
+    machine: Bicycle | Machines = bicycle
+    if others:
+        shape = np.broadcast_shapes(*(np.shape(value) for value in others.values()))
+        machine = Machines.varied(bicycle, others, shape)
+    lam: Any = numbers.get("lam", bicycle.lam)
+    if "head_angle" in numbers:
+        lam = 0.5 * np.pi - numbers["head_angle"]
+    sigma, given = _sigma(bicycle, numbers, machine)
+    if "offset" in numbers:
+        if not given:
+            sigma = trail_from(lam, numbers["offset"], machine.R2) / machine.c
+        else:
+            lam = tilt_from(sigma * machine.c, numbers["offset"], machine.R2)
+    return machine, lam, sigma
+
+
+def front_of(bicycle: Bicycle, name: str) -> str:
+    """What of the front a parameter's name is: ``tilt``, ``trail``, ``offset``, or nothing of it."""
+    if name in TILT:
+        return "tilt"
+    if name in TRAIL or (name == "c" and bicycle.bodies is not None):
+        return "trail"
+    return "offset" if name in OFFSET else ""
+
+
+def fixed_by(bicycle: Bicycle, names: Iterable[str]) -> dict[str, str]:
+    """Of tilt, trail and offset those that parameters of these names fix together, and which one does."""
+    found = {front_of(bicycle, name): name for name in names}
+    found.pop("", None)
+    if {"trail", "offset"} <= found.keys():
+        found.setdefault("tilt", found["offset"])
+    if "offset" in found:
+        found.setdefault("trail", found["offset"])
+    elif {"tilt", "trail"} <= found.keys():
+        found["offset"] = found["trail"]
+    return found
+
+
+def check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
+    """Raise InputError, with the parameter's name as key, for values that no machine can have."""
+    fronts = {front_of(bicycle, name): name for name in values}
+    if "offset" in fronts and "trail" in fronts:
+        radius = float(varied(bicycle, values)[0].R2)
+        if not abs(values["offset"]) < radius:
+            problem = f"no head angle gives a trail with an offset of {values['offset']:g} m"
+            hint = f"allowed: less than the front wheel's radius, {radius:g} m; 45 mm are written 45mm"
+            raise InputError(problem, key=("offset",), hint=hint)
+    _, lam, sigma = varied(bicycle, values)
+    check_tilt(float(lam), (fronts.get("tilt", fronts.get("offset", "lam")),))
+    check_trail(float(sigma), (fronts.get("trail", fronts.get("offset", "sigma")),))
+    rest = {name: value for name, value in values.items() if not front_of(bicycle, name)}
+    given = {name: value for name, value in rest.items() if name in bicycle.notation}
+    parts = {name: value for name, value in rest.items() if name not in given}
+    machine = bicycle.replaced(given) if given else bicycle
+    if parts:
+        Bicycle.from_mapping({**machine.numbers(), "lam": float(lam), "sigma": float(sigma), **parts})
+
+
+def own_value(bicycle: Bicycle, name: str) -> float | None:
+    """The value that the bicycle itself has of a parameter; None where it has none, 0 of what is optional."""
+    lam, sigma = bicycle.lam, bicycle.sigma
+    derived = {
+        "head_angle": None if lam is None else 0.5 * np.pi - lam,
+        "trail": None if sigma is None else sigma * bicycle.c,
+        "offset": None if lam is None or sigma is None else offset_of(lam, sigma, bicycle.c, bicycle.R2),
+        "R": bicycle.R1 if bicycle.R1 == bicycle.R2 else None,
+    }
+    known = {**bicycle.numbers(), **bicycle.given, "lam": lam, "sigma": sigma, **derived}
+    own = known.get(name, 0.0)
+    return None if own is None else float(own)
+
+
+def _sigma(bicycle: Bicycle, numbers: Mapping[str, Any], machine: Bicycle | Machines) -> tuple[Any, bool]:
+    """σ without a thought of the offset, and whether it is given."""
+    if "sigma" in numbers:
+        return numbers["sigma"], True
+    for name in ("trail", "c"):
+        if name in numbers and front_of(bicycle, name) == "trail":
+            return numbers[name] / machine.c, True
+    if bicycle.bodies is not None:
+        return bicycle.bodies["c"] / machine.c, False
+    return bicycle.sigma, False
