@@ -132,8 +132,7 @@ def test_an_ensemble_is_that_of_its_module(spread):
     lam, sigma, V = (config.grid.values(name) for name in ("lam", "sigma", "V"))
     cells = np.repeat(lam, 6), np.tile(sigma, 9)
     ensemble = config.ensemble
-    machines = ensemble.machines(config.machine)
-    expected = ensemble_statistics(machines, *cells, V, "refined", ensemble.quantiles)
+    expected = ensemble_statistics(config.family(), ensemble.drawn, *cells, V, ensemble.quantiles)
     with h5py.File(path) as file:
         np.testing.assert_array_equal(file["probability"][()].reshape(54, 19), expected.probability)
         np.testing.assert_array_equal(file["probability_somewhere"][()].ravel(), expected.somewhere)
