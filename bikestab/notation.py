@@ -98,12 +98,12 @@ def reduced(n: Mapping[str, Any]) -> dict[str, Any]:
     Floats, or arrays that broadcast together.
     """
     # part 1 = rear wheel + body (+ rider), part 2 = fork + front wheel: (mass, forward, up, Ixx, Izz, Ixz)
-    m1, l1, h1, A1, B1, xz1 = _join(
+    m1, l1, h1, A1, B1, xz1 = joined(
         (n["mR"], 0.0, n["rR"], n["IRxx"], n["IRxx"], 0.0),
         (n["mB"], n["xB"], -n["zB"], n["IBxx"], n["IBzz"], n["IBxz"]),
         *([rider_body(n)] if "rider.m" in n else []),
     )
-    m2, l2, h2, A2, B2, xz2 = _join(
+    m2, l2, h2, A2, B2, xz2 = joined(
         (n["mH"], n["xH"], -n["zH"], n["IHxx"], n["IHzz"], n["IHxz"]),
         (n["mF"], n["w"], n["rF"], n["IFxx"], n["IFxx"], 0.0),
     )
@@ -114,7 +114,7 @@ def reduced(n: Mapping[str, Any]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _join(*bodies: tuple[Any, ...]) -> tuple[Any, ...]:
+def joined(*bodies: tuple[Any, ...]) -> tuple[Any, ...]:
     """Bodies as one: mass, centre of mass (forward, up) and central Ixx, Izz, Ixz (z down)."""
     m = _total(body[0] for body in bodies)
     x, h = (_total(body[0] * body[i] for body in bodies) / m for i in (1, 2))

@@ -8,6 +8,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from bikestab.errors import InputError
+from bikestab.formats import bikecad, jbike6
 from bikestab.texts import is_file
 
 KINDS = {  # what it is called, and what takes it
@@ -17,7 +18,7 @@ KINDS = {  # what it is called, and what takes it
     "bicycle": ("a bicycle's file", "bikestab vrange --bicycle takes it, and 'bicycle:' in a config"),
     "bikecad": (
         "a design of BikeCAD, which has lengths and angles but no masses and moments of inertia",
-        "bikestab vrange --head-angle and --trail take its angle and trail, with a bicycle that has masses",
+        "bikestab vrange --bicycle tells its head angle and trail, and what to type with them",
     ),
     "yeadon": (
         "a rider's body for the package yeadon",
@@ -25,9 +26,11 @@ KINDS = {  # what it is called, and what takes it
     ),
     "rider": ("a rider's file", "bikestab convert BICYCLE --rider takes it"),
 }
+_TOLD_BY_READER = {("bicycle", "bikecad")}
 _HEAD = 65536  # bytes that are looked at
 _PICTURES = (b"\x89PNG", b"%PDF", b"\xff\xd8\xff", b"GIF8")
 _KEY = re.compile(r"(?:^|[{,])[ \t\"']*(\w+)[\"']?[ \t]*[:=]", re.MULTILINE)
+_OF_BICYCLES = ({"w", "mB"}, {"m1", "h1"}, {"w", "kHaa"}, {"mB", "TtB1"})
 _RIDER = {"mB", "xB", "zB", "IBxx", "IBzz", "IBxz"}
 
 
@@ -40,7 +43,7 @@ def kind_of(path: str | Path) -> str:
                 head = file.read(_HEAD)
     if head.startswith(b"\x89HDF"):
         return "volume"
-    if b"<!DOCTYPE properties" in head[:1000]:
+    if bikecad.looks_like(head):
         return "bikecad"
     if head.startswith(_PICTURES) or b"<svg" in head[:1000]:
         return "picture"
@@ -48,7 +51,7 @@ def kind_of(path: str | Path) -> str:
     keys = set(_KEY.findall(text))
     if "grid" in keys and "bicycle" in keys:
         return "config"
-    if {"w", "mB"} <= keys or {"w", "kHaa"} <= keys or {"m1", "h1"} <= keys or {"mB", "TtB1"} <= keys:
+    if any(pair <= keys for pair in _OF_BICYCLES) or jbike6.looks_like(text):
         return "bicycle"
     if keys & {"somersault", "measurementconversionfactor"}:
         return "yeadon"
@@ -62,7 +65,7 @@ def expected(kind: str, path: str | Path) -> Iterator[None]:
         yield
     except InputError as error:
         found = kind_of(path)
-        if not found or found == kind:
+        if not found or found == kind or (kind, found) in _TOLD_BY_READER:
             raise
         what, takes = KINDS[found]
         raise InputError(f"is {what}, not {KINDS[kind][0]}", place=str(path), hint=takes) from error

@@ -56,16 +56,23 @@ def converted(values: Mapping[Any, Any]) -> dict[str, float]:
     for body, name in (("D", "{}B"), ("H", "{}H"), ("P", "rider.{}")):
         found |= {name.format(letter): n[letter + body] for letter in "mxz"}
         inertia = name.format("I") if body == "P" else f"I{name[-1]}"
-        found |= {inertia + axes: value for axes, value in _turned(n, body).items()}
+        found |= {inertia + axes: value for axes, value in _of_body(n, body).items()}
     return found
 
 
 _AXES = (("xx", "aa"), ("yy", "yy"))
 
 
-def _turned(n: Mapping[str, float], body: str) -> dict[str, float]:
-    """A body's inertia about axes forward and down, from that about its principal axes."""
+def _of_body(n: Mapping[str, float], body: str) -> dict[str, float]:
     aa, bb, yy = (n[f"m{body}"] * n[f"k{body}{axis}"] ** 2 for axis in ("aa", "bb", "yy"))
-    sin, cos = math.sin(n[f"alpha{body}"]), math.cos(n[f"alpha{body}"])
+    return turned(aa, bb, yy, n[f"alpha{body}"])
+
+
+def turned(aa: float, bb: float, yy: float, alpha: float) -> dict[str, float]:
+    """A body's inertia about axes forward, across and down, from that about its principal axes.
+
+    The first of these is turned by ``alpha`` [rad] about the axis across, from forward to up.
+    """
+    sin, cos = math.sin(alpha), math.cos(alpha)
     xx, zz = aa * cos * cos + bb * sin * sin, aa * sin * sin + bb * cos * cos
     return {"xx": xx, "yy": yy, "zz": zz, "xz": (bb - aa) * sin * cos}

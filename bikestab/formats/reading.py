@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.formats import equalities, measured, principal
+from bikestab.formats import bikecad, equalities, jbike6, measured, principal
 from bikestab.formats.extras import without_extras
 from bikestab.formats.found import Found
 from bikestab.formats.kinds import expected
@@ -25,6 +25,10 @@ def read(path: str | Path) -> Found:
     """The parameters in the file at ``path``; InputError names file, line, key and value."""
     text = read_text(path)
     file = str(path)
+    if bikecad.looks_like(text):
+        raise bikecad.refused(text, file)
+    if jbike6.looks_like(text):
+        return jbike6.read(text, file)
     return _from_equalities(text, file) if equalities.looks_like(text) else _from_yaml(text, file)
 
 

@@ -1,5 +1,6 @@
 """bikestab convert: files of one format into another."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -42,3 +43,22 @@ def test_convert_mistakes(bikestab, args, message):
     assert (code, out) == (2, "")
     assert message in err
     assert [path.name for path in Path().iterdir()] == ["there.yaml"]
+
+
+def test_what_a_design_of_bikecad_says_to_type_can_be_typed(bikestab, tmp_path):
+    entries = {
+        "Head angle": 71, "FORK0R": 45, "Wheel diameter front": 680, "Wheel diameter rear": 680, "Stack": 600,
+        "FCD textfield": 390, "CS textfield": 430, "BB textfield": 70,
+        "Top tube front center measure style": 3,
+    }  # fmt: skip
+    lines = "".join(f'<entry key="{key}">{value}</entry>\n' for key, value in entries.items())
+    (tmp_path / "a.bcad").write_text(f"<!DOCTYPE properties SYSTEM 'p'>\n<properties>\n{lines}</properties>")
+    code, out, err = bikestab("vrange", "--bicycle", "a.bcad")
+    assert (code, out) == (2, "")
+    typed = err.rpartition("bikestab vrange ")[2].replace("NAME", "meijaard2007").split()
+    code, out, err = bikestab("vrange", *typed, "--json")
+    assert (code, err) == (0, "")
+    (result,) = json.loads(out)["results"]
+    assert result["head_angle_deg"] == pytest.approx(71, rel=1e-12)
+    assert result["offset"] == pytest.approx(0.045, abs=1e-7)  # of a trail that is told to 0.1 µm
+    assert result["set"] == {"w": pytest.approx(1.04435, abs=1e-5), "rF": 0.34}
