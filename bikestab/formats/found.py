@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from bikestab.errors import InputError
+from bikestab.errors import InputError, nearest
+from bikestab.limits import require
+from bikestab.units import quantity, units_in
 
 
 @dataclass(frozen=True)
@@ -22,3 +24,22 @@ class Found:
     deviations: Mapping[str, float] = field(default_factory=dict)
     correlations: Mapping[tuple[str, str], float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+
+
+def quantities(
+    values: Mapping[Any, Any],
+    known: Mapping[str, str],
+    *,
+    optional: Collection[str],
+    ignored: Collection[str],
+) -> dict[str, float]:
+    """The numbers in SI of another notation, whose ``known`` keys have meanings with units in brackets.
+
+    InputError, with its key, for a mistake.
+    """
+    for key in values:
+        if key not in known and key not in ignored:
+            raise InputError("unknown parameter", key=(str(key),), hint=nearest(str(key), known))
+    require(values, [key for key in known if key not in optional], known)
+    given = {key: value for key, value in values.items() if key in known}
+    return {key: quantity(value, units_in(known[key]), key=(key,)) for key, value in given.items()}

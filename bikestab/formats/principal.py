@@ -10,9 +10,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from bikestab.errors import InputError, nearest
-from bikestab.limits import require
-from bikestab.units import quantity, units_in
+from bikestab.formats.found import quantities
 
 _FRAMES = {"D": "frame", "H": "fork and handlebar", "P": "rider"}
 _WHEELS = {"R": "rear wheel", "F": "front wheel"}
@@ -41,16 +39,10 @@ def looks_like(values: Mapping[Any, Any]) -> bool:
 
 def converted(values: Mapping[Any, Any]) -> dict[str, float]:
     """The 25 parameters, with ``rider.m`` and so on of the rider; InputError, with its key, for a mistake."""
-    for key in values:
-        if key not in PRINCIPAL and key not in IGNORED:
-            raise InputError("unknown parameter", key=(str(key),), hint=nearest(str(key), PRINCIPAL))
-    require(values, [key for key in PRINCIPAL if key != "g"], PRINCIPAL)
-    n = {
-        key: quantity(value, units_in(PRINCIPAL[key]), key=(key,))
-        for key, value in values.items()
-        if key in PRINCIPAL
+    n = quantities(values, PRINCIPAL, optional={"g"}, ignored=IGNORED)
+    found: dict[str, float] = {
+        key: n[key] for key in ("w", "c", "lam", "g", "rR", "mR", "rF", "mF") if key in n
     }
-    found = {key: n[key] for key in ("w", "c", "lam", "g", "rR", "mR", "rF", "mF") if key in n}
     for body in _WHEELS:
         found |= {f"I{body}{axes}": n[f"m{body}"] * n[f"k{body}{k}"] ** 2 for axes, k in _AXES}
     for body, name in (("D", "{}B"), ("H", "{}H"), ("P", "rider.{}")):

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import Any, TypeAlias
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.formats import bikecad, equalities, jbike6, measured, principal
+from bikestab.formats import bikecad, equalities, jbike6, measured, moore2012, principal
 from bikestab.formats.extras import without_extras
 from bikestab.formats.found import Found
 from bikestab.formats.kinds import expected
@@ -127,6 +128,8 @@ def _settled(
     values: Mapping[Any, Any], located: Located, deviations: Mapping[str, float]
 ) -> tuple[dict[Any, Any], list[str]]:
     """The parameters alone, and notes on what else there was."""
+    if moore2012.looks_like(values):
+        return _converted(moore2012, values, located, deviations, ["from axes along the steering axis"])
     try:
         kept, notes = without_extras(values)
     except InputError as error:
@@ -134,12 +137,20 @@ def _settled(
     if values and not kept:
         raise located(InputError(f"has no parameter of a bicycle: {', '.join(map(str, values))}"))
     if principal.looks_like(kept):
-        try:
-            found = principal.converted(kept)
-        except InputError as error:
-            raise located(error) from None
         notes.append("from principal axes; its body P is the rider")
-        if lost := [key for key in deviations if key in kept and key not in found]:
-            notes.append(f"not carried to other axes, left out: the uncertainties of {', '.join(lost)}")
-        return found, notes
+        return _converted(principal, kept, located, deviations, notes)
     return kept, notes
+
+
+def _converted(
+    notation: ModuleType, values: Mapping[Any, Any], located: Located, deviations: Mapping[str, float],
+    notes: list[str],
+) -> tuple[dict[Any, Any], list[str]]:  # fmt: skip
+    """The parameters from those of another notation, and the notes, with one on what cannot be carried."""
+    try:
+        found = notation.converted(values)
+    except InputError as error:
+        raise located(error) from None
+    if lost := [key for key in deviations if key in values and key not in found]:
+        notes.append(f"not carried to other axes, left out: the uncertainties of {', '.join(lost)}")
+    return found, notes
