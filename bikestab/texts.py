@@ -16,14 +16,14 @@ MOST_BYTES = 2_000_000
 PATIENCE = 30.0  # s that a pipe may take
 
 
-def read_text(path: str | Path) -> str:
+def read_text(path: str | Path, most: int = MOST_BYTES) -> str:
     """The text of the file, pipe or device at ``path``, with newlines for all ends of lines.
 
-    Raises InputError where it cannot be read, is longer than ``MOST_BYTES``, or is no text in UTF-8.
+    Raises InputError where it cannot be read, is longer than ``most`` bytes, or is no text in UTF-8.
     """
     file = str(path)
     try:
-        content = _read(path)
+        content = _read(path, most)
     except FileNotFoundError:
         raise InputError("there is no such file", place=file, hint=_neighbours(Path(path))) from None
     except IsADirectoryError:
@@ -32,8 +32,8 @@ def read_text(path: str | Path) -> str:
         raise InputError(f"cannot be read ({error.strerror})", place=file) from None
     except ValueError:
         raise InputError("cannot be read (no file has such a name)", place=file) from None
-    if len(content) > MOST_BYTES:
-        raise InputError(f"is longer than {MOST_BYTES / 1e6:g} MB, the most that is read", place=file)
+    if len(content) > most:
+        raise InputError(f"is longer than {most / 1e6:g} MB, the most that is read", place=file)
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -56,13 +56,13 @@ def is_there(path: str | Path) -> bool:
     return False
 
 
-def _read(path: str | Path) -> bytes:
-    """At most one byte more than ``MOST_BYTES``. Raises OSError, also where a pipe takes too long."""
+def _read(path: str | Path, most: int) -> bytes:
+    """At most one byte more than ``most``. Raises OSError, also where a pipe takes too long."""
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))
     with open(descriptor, "rb", buffering=0) as file:  # noqa: PTH123  # open already
         if stat.S_ISDIR(os.fstat(descriptor).st_mode):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-        parts, left, end = [], MOST_BYTES + 1, time.monotonic() + PATIENCE
+        parts, left, end = [], most + 1, time.monotonic() + PATIENCE
         while left:
             if not stat.S_ISREG(os.fstat(descriptor).st_mode):
                 _wait(descriptor, end)

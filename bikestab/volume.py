@@ -73,7 +73,9 @@ class Volume:
         if self._chosen and data.ndim > len(self._chosen) + 1:
             where = (*self._chosen.values(), *where)
         try:
-            values = data[where]
+            values = data[where].astype(
+                data.dtype.newbyteorder("="), copy=False
+            )  # as other programs want them
         except OSError:
             problem = f"is damaged: {name} cannot be read"
             raise InputError(problem, place=str(self.path), hint="scan again with --force") from None

@@ -15,6 +15,7 @@ import pytest
 from bikestab import watched
 from bikestab.errors import InputError
 from bikestab.export.summary import summary
+from bikestab.export.volumes import export_intervals
 from bikestab.volume import Volume
 from tests.volumes import config_of
 
@@ -301,6 +302,21 @@ def test_ends_that_are_not_those_of_their_intervals_are_refused(equal, others, t
         file[name][tuple(none)] = 3.0
     with Volume(path) as volume, pytest.raises(InputError, match="not what upper says"):
         volume.read(name)
+
+
+def test_another_order_of_bytes_is_none_of_what_is_read(equal, tmp_path):
+    """HDF5 keeps either; Arrow takes that of the machine alone."""
+    path = tmp_path / "volume.h5"
+    path.write_bytes(equal[0].read_bytes())
+    with h5py.File(path, "a") as file:
+        for name in ("V", "V1", "V1_error"):
+            replaced(name, file[name][()].astype(">f8"))(file)
+    with Volume(path) as volume, Volume(equal[0]) as original:
+        for name in ("V", "V1", "V1_error"):
+            assert volume.file[name].dtype == ">f8"
+            assert volume.read(name).dtype == np.dtype("f8")
+            np.testing.assert_array_equal(volume.read(name), original.read(name))
+        export_intervals(volume, [str(tmp_path / "a.parquet")])
 
 
 def test_what_others_add_is_no_hindrance(equal, tmp_path):

@@ -15,13 +15,17 @@ from math import comb, inf, prod
 from pathlib import Path
 from typing import Any
 
-STABLE, UNSTABLE, MOST = 1, 2, 10**7
+STABLE, UNSTABLE, MOST, MOST_VARIED = 1, 2, 10**7, 2
 TWO = "c g delta m1 l1 h1 A1 B1 D1 C1 R1 m2 l2 h2 A2 B2 D2 C2 R2"
 FOUR = "w c lam g delta rR mR IRxx IRyy xB zB mB IBxx IByy IBzz IBxz xH zH mH IHxx IHyy IHzz IHxz rF mF"
 FOUR += " IFxx IFyy rider.m rider.x rider.z rider.Ixx rider.Iyy rider.Izz rider.Ixz rider.inertia_mass"
 Poly = dict[tuple[int, ...], F]  # coefficients by the powers of sin, cos, σ, V and what varies
 
 Bodies = list[tuple[Poly, ...]]  # mass, forward, up, Ixx, Izz, ∫ x h dm
+
+
+class Refuted(ValueError):
+    """What a certificate says does not hold."""
 
 
 def times(*factors: Poly) -> Poly:
@@ -78,7 +82,9 @@ def conditions(machine: dict[str, str], varied: list[str], four: bool, refined: 
     sin, cos, sigma, V, *free = ({tuple(int(i == k) for i in range(size)): F(1)} for k in range(size))
     numbers = {"g": (9.81).hex(), "delta": "0x0p0", **machine}
     if set(numbers) - set((FOUR if four else TWO).split()):
-        raise ValueError(f"the block of numbers has others than {FOUR if four else TWO}")
+        raise Refuted(f"the block of numbers has others than {FOUR if four else TWO}")
+    if len(set(varied)) < len(varied) or not {*varied} <= {*numbers}:
+        raise Refuted("what is varied is given twice, or is no number of the machine")
     n = {key: {(0,) * size: F(float.fromhex(text))} for key, text in numbers.items()}
     n |= dict(zip(varied, free, strict=True))
     (rear, front), k = bodies_of(n, four)
@@ -174,22 +180,26 @@ def half_angle(lam: float, up: bool) -> F:
 
 
 def check(certificate: dict[str, Any]) -> str:
-    """The share of the cells that is proved; raises ValueError where the certificate does not hold."""
+    """The share of the cells that is proved; raises Refuted where that does not hold, others where it is no
+    certificate.
+    """
+    if len(certificate["varied"]) > MOST_VARIED:
+        raise Refuted(f"more than {MOST_VARIED} numbers are varied")
     four = ["two parts", "four bodies"].index(certificate["notation"]) == 1
     sides = conditions(certificate["machine"], certificate["varied"], four, certificate["model"] == "refined")
     halves = [in_half_angle(side) for side in sides]
     edges = [[float.fromhex(text) for text in axis] for axis in certificate["edges"]]
     total = prod(len(axis) - 1 for axis in edges)
     if total > MOST or any(not (-inf < a <= b < inf) for axis in edges for a, b in itertools.pairwise(axis)):
-        raise ValueError("the edges of blocks do not ascend, or are too many")
+        raise Refuted("the edges of blocks do not ascend, or are too many")
     if not (-1.57 < edges[0][0] <= edges[0][-1] < 1.57 and edges[2][0] >= 0):
-        raise ValueError("blocks have tilts that do not meet the ground, or negative speeds")
+        raise Refuted("blocks have tilts that do not meet the ground, or negative speeds")
     seen: set[tuple[int, ...]] = set()
     for ends, verdict in certificate["blocks"]:
         inside = all(0 <= a < b < len(axis) for (a, b), axis in zip(ends, edges, strict=True))
         cells = set(itertools.product(*(range(a, b) for a, b in ends))) if inside else set()
         if not inside or cells & seen:
-            raise ValueError(f"block {ends} overlaps another one or leaves the box")
+            raise Refuted(f"block {ends} overlaps another one or leaves the box")
         seen |= cells
         low, high = ([axis[e[side]] for e, axis in zip(ends, edges, strict=True)] for side in (0, 1))
         box = [(half_angle(low[0], False), half_angle(high[0], True))]
@@ -202,7 +212,7 @@ def check(certificate: dict[str, Any]) -> str:
         right = {STABLE: all(min(values) > 0 for values in signs) and not at_rest}
         right[UNSTABLE] = min(signs[4]) > 0 and any(max(values) < 0 for values in signs)
         if not right.get(verdict):
-            raise ValueError(f"block {ends} is not proved: verdict {verdict}")
+            raise Refuted(f"block {ends} is not proved: verdict {verdict}")
     return f"{len(certificate['blocks'])} blocks hold, {len(seen)} of {total} cells"
 
 

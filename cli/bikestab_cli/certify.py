@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -34,6 +33,7 @@ if TYPE_CHECKING:
     from bikestab.model import Model
 
 MOST_CELLS = 512
+MOST_BYTES = 50_000_000  # of a certificate, whose check would take weeks
 LONG = 20  # blocks; their check is announced
 
 
@@ -227,23 +227,21 @@ def _words(proof: Proof) -> str:
 
 
 def _verify(name: str) -> None:
-    from bikestab.certify.checker import check
+    from bikestab.certify.checker import Refuted, check
+    from bikestab.texts import read_text
 
-    problem = "is no certificate of bikestab"
+    text = read_text(name, MOST_BYTES)
     try:
-        certificate = json.loads(Path(name).read_text(encoding="utf-8"))
+        certificate = json.loads(text)
         if certificate["format"] != "bikestab certificate 1":
-            raise InputError(problem, place=name, hint="'bikestab certify ... -o FILE' writes one")
+            raise ValueError
         number = len(certificate["blocks"])
         if number > LONG:
-            click.echo(f"{name}: {number} blocks, 0.2 to 2 s each", err=True)
+            click.echo(f"note: {name}: {number} blocks, 0.2 to 2 s each", err=True)
         click.echo(f"{name}: {check(certificate)}")
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", place=name) from None
-    except (TypeError, LookupError, AttributeError, RecursionError, OverflowError, UnicodeError):
-        raise InputError(problem, place=name, hint="'bikestab certify ... -o FILE' writes one") from None
-    except json.JSONDecodeError:
-        raise InputError(problem, place=name, hint="'bikestab certify ... -o FILE' writes one") from None
-    except ValueError as error:
+    except Refuted as error:
         click.echo(f"{name}: {error}", err=True)
         click.get_current_context().exit(1)
+    except (TypeError, LookupError, AttributeError, RecursionError, OverflowError, ValueError):
+        hint = "'bikestab certify ... -o FILE' writes one"
+        raise InputError("is no certificate of bikestab", place=name, hint=hint) from None

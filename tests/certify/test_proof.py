@@ -136,6 +136,15 @@ def test_certificates_hold_and_one_changed_number_breaks_them(bicycle, tolerance
             checker.check(changed)
 
 
+@pytest.mark.parametrize("varied", [["m1"] * 2, ["m1", "h1", "l1"], ["x"], ["m1"] * 19])
+def test_what_is_varied_is_bounded_before_anything_is_computed(varied):
+    """Coefficients grow as powers of their number: a certificate with all of them varied would not end."""
+    certificate = json.loads(prove(PAPER, *np.array([[0.2, 0.2], [0.08, 0.08], [4.2, 4.3]])).certificate("1"))
+    certificate["edges"] += [["0x0p0", "0x1p0"]] * len(varied)
+    with pytest.raises(checker.Refuted, match="varied"):
+        checker.check(certificate | {"varied": varied})
+
+
 @pytest.mark.parametrize(
     ("bicycle", "varied"),
     [(PAPER, ()), (PAPER, ("R2", "m2")), (BENCHMARK, ("mB", "w", "xH")), (BENCHMARK, ())],

@@ -67,6 +67,7 @@ def test_a_box_of_fork_offsets(bikestab):
         (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "m1=85"], "mB=85+-2"),
         (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "m1=1+-2"], "m1"),
         (["--verify", "nowhere.json"], "nowhere.json"),
+        (["--verify", "/dev/zero"], "/dev/zero: is longer than 50 MB"),
         (["nowhere.yaml"], "nowhere.yaml"),
         (["nowhere.yaml", "--lam", "1"], "says what --lam says"),
         (["nowhere.yaml", "--head-angle", "71deg"], "says what --head-angle says"),
@@ -91,5 +92,10 @@ def test_a_certificate_is_written_and_checked(bikestab, tmp_path):
     code, out, err = bikestab("certify", "--verify", path)
     assert (code, out) == (1, "")
     assert "not proved" in err
-    path.write_text("{}", "utf-8")
-    assert bikestab("certify", "--verify", path)[0] == 2
+    without = text.replace("], 1]]", "]]]"), text.replace("blocks", "block")
+    for no_certificate in ("{}", "[" * 10**5, *without):
+        assert no_certificate != text
+        path.write_text(no_certificate, "utf-8")
+        code, out, err = bikestab("certify", "--verify", path)
+        assert (code, out) == (2, "")
+        assert "is no certificate of bikestab" in err

@@ -4,6 +4,7 @@ The measurements are those of the bicycle Browser in the repository of BicyclePa
 """
 
 import sys
+from pathlib import Path
 
 import pytest
 from bicycleparameters.io import load_parameter_text_file
@@ -13,51 +14,7 @@ from uncertainties import covariance_matrix
 import bikestab as bs
 from bikestab.errors import InputError
 
-BROWSER = """\
-lF = 0.293+/-0.001
-lP = 1.05+/-0.001
-nF = 13
-lR = 0.29325+/-0.001
-nR = 13
-aB1 = 0.098+/-0.003
-aB2 = 0.169+/-0.003
-aB3 = -0.294+/-0.003
-aH1 = 0.474+/-0.003
-aH2 = 0.383+/-0.003
-aH3 = 0.215+/-0.003
-mF = 2.02+/-0.02
-mP = 5.56+/-0.02
-mB = 9.86+/-0.02
-mH = 3.22+/-0.02
-mR = 3.11+/-0.02
-alphaB1 = 3.4+/-0.2
-alphaB2 = 138.7+/-0.2
-alphaB3 = 229.8+/-0.2
-alphaH1 = 346.7+/-0.2
-alphaH2 = 28.1+/-0.2
-alphaH3 = 287.0+/-0.2
-f = 0.0705+/-0.001
-dF = 28.06+/-0.01
-dP = 0.03+/-0.0001
-w = 1.121+/-0.002
-dR = 27.85+/-0.01
-gamma = 67.1+/-0.2
-g = 9.81 +/- 0.01
-hbb = 0.295
-TcB1 = 1.71730688911+/-4.98313880734e-06
-TcF1 = 1.4811273727+/-7.31000200392e-06
-TcH1 = 1.60185105189+/-6.90549490599e-06
-TcR1 = 1.36108970039+/-3.90671672693e-06
-TtB1 = 2.09957410356+/-8.09275635443e-05
-TtB2 = 2.37671750273+/-2.4333984297e-05
-TtB3 = 1.83976940999+/-1.02546435087e-05
-TtF1 = 0.787577011406+/-1.46269721914e-06
-TtH1 = 1.36879552035+/-5.95874853641e-06
-TtH2 = 1.29527226157+/-6.44254076091e-06
-TtH3 = 0.760950957261+/-2.80094376959e-06
-TtP1 = 1.89399317145+/-5.93377589066e-06
-TtR1 = 0.796564786052+/-1.16766813788e-06
-"""
+BROWSER = (Path(__file__).parents[1] / "references" / "browser_measured.txt").read_text("utf-8")
 
 
 @pytest.fixture

@@ -7,31 +7,26 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from bikestab.bicycle import PAPER, preset_names, preset_text
+from bikestab.bicycle import PAPER, preset_names
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.fields import AXES, askable
 from bikestab.notation import MEIJAARD
 from bikestab.yamltext import copied, dumped
+from tests.fuzz.bicycles import damaged_bicycles
+from tests.fuzz.certificates import damaged_certificates
 from tests.fuzz.commandlines import command_lines
+from tests.fuzz.damage import damaged
 from tests.fuzz.harness import Case
+from tests.fuzz.outputs import outputs
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 SEEDS = [path.read_bytes() for path in sorted(CONFIGS.glob("*.yaml"))]
-BICYCLES = [preset_text(name).encode() for name in preset_names()]
-BICYCLES += [b"w = 1.02+/-0.01\nc = 0.08\nlam = pi/10\ng = 9.81\n", b"[bicycle]\nw=1\n"]
 NASTY = [
     None, True, False, 0, -1, 1, 2, 10**30, -(10**400), 1e-320, 1e308, float("inf"), float("nan"), "", " ",
     "1", "1e999", "18deg", "1 furlong", "0x", "9" * 300, "\0", "a\nb", "\x1b[2J", "λ", "\U0001f6b2", "../x",
     "/", ".", "never", "unbounded", [], {}, [[]], [{}], {"": ""}, {"values": []}, {"start": 0}, [1, 2],
     ["a"], {"a": {"b": {"c": [1]}}}, "*a", "<<", "~",
 ]  # fmt: skip
-TOKENS = [
-    b"&a ", b"*a", b"<<: *a", b"!!int ", b"!!bool x", b"!<a> ", b"{", b"}", b"[", b"]", b"? ", b": ", b"- ",
-    b"\t", b"\0", b"\xff", b"\xc3", b"'", b'"', b"#", b"|\n", b">-\n", b"%YAML 9.9\n", b"---\n", b"...\n",
-    b"1e999", b"-", b"9" * 5000, b" " * 3000, b".nan", b".inf", b"0o7", b"\r", b"\x1b[2J", b"\xef\xbb\xbf",
-    b"+/-", b"=", b",", b"pi/0",
-]  # fmt: skip
-
 nasty = st.sampled_from(NASTY)
 numbers = st.floats(-20, 20) | st.integers(-5, 60) | st.floats() | nasty
 axes = st.one_of(
@@ -90,36 +85,16 @@ def configs(draw: Any) -> Case:
 
 
 @st.composite
-def damaged(draw: Any, text: bytes) -> bytes:
-    """A text with some places replaced, doubled, dropped, or with something put in."""
-    for _ in range(draw(st.integers(1, 4))):
-        at = draw(st.integers(0, len(text)))
-        end = min(len(text), at + draw(st.integers(0, 12)))
-        kind = draw(st.sampled_from(["token", "byte", "drop", "double", "cut"]))
-        middle = {
-            "token": draw(st.sampled_from(TOKENS)), "byte": draw(st.binary(min_size=1, max_size=2)),
-            "drop": b"", "double": 2 * text[at:end], "cut": b"",
-        }[kind]  # fmt: skip
-        text = text[:at] + middle + (b"" if kind == "cut" and draw(st.booleans()) else text[end:])
-    return text
-
-
-@st.composite
 def damaged_configs(draw: Any) -> Case:
     """One of the configs that come with the project, damaged."""
     return Case(("check", "a.yaml"), {"a.yaml": draw(damaged(draw(st.sampled_from(SEEDS))))})
-
-
-@st.composite
-def damaged_bicycles(draw: Any) -> Case:
-    """A bicycle's file, damaged."""
-    command = draw(st.sampled_from([("vrange", "--lam", "0.2", "--sigma", "0.1"), ("vrange",), ("eigen",)]))
-    return Case((*command, "--bicycle", "a.yaml"), {"a.yaml": draw(damaged(draw(st.sampled_from(BICYCLES))))})
 
 
 KINDS: dict[str, st.SearchStrategy[Case]] = {
     "configs": configs(),
     "damaged configs": damaged_configs(),
     "damaged bicycles": damaged_bicycles(),
+    "damaged certificates": damaged_certificates(),
     "command lines": command_lines(),
+    "outputs": outputs(),
 }

@@ -10,7 +10,7 @@ from tests.fuzz.limits import alone
 from tests.fuzz.volumes import ended, originals
 
 PARTS = 4  # so that the cores share the cases
-CASES = {"volumes": 36, "tiles": 10}  # of each part, in one process
+CASES = {"volumes": 32, "tiles": 10}  # of each part, in one process
 
 
 @pytest.fixture(scope="module")

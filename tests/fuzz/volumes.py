@@ -35,12 +35,17 @@ TEXTS = (
     GRID + "sweep: {delta: [0, 1]}\n",
     GRID + "ensemble: {m1: {normal: [80, 1]}, samples: 5, seed: 1}\n",
 )
-for module in ("info", "export"):  # what each case needs is here before it forks
+for module in ("info", "export", "slice"):  # what each case needs is here before it forks
     importlib.import_module(f"bikestab_cli.{module}")
-for module in ("summary", "volumes", "meshes", "tables"):
-    importlib.import_module(f"bikestab.export.{module}")
+for module in ("export.summary", "export.volumes", "export.meshes", "export.tables", "plot.slices"):
+    importlib.import_module(f"bikestab.{module}")
 
-COMMANDS = (("info",), ("info", "--json"), ("export", "--intervals", "a.csv"))
+COMMANDS = (
+    ("info",), ("info", "--json"), ("export", "--intervals", "a.csv"), ("slice", "--V", "5", "-o", "a.svg"),
+    ("export", "--intervals", "a.parquet"), ("export", "--at", "delta=1", "--skeleton", "a.csv"),
+    ("slice", "--lam", "0.2", "--at", "delta=1", "-o", "a.png"),
+    ("export", "--mesh", "a.ply", "--cells", "10"),
+)  # fmt: skip
 
 
 VALUES = (
@@ -148,7 +153,10 @@ def told(content, number):
     assert "a mistake of bikestab" not in text, text
     assert (not text) if code == 0 else text.startswith("error: "), text
     assert len(text.splitlines()) <= 3, text
-    assert set(left) <= {"volume.h5", *(["a.csv"] if code == 0 else [])}, left
+    written = {
+        name for name in more if name.startswith("a.") and code == 0 and "no mesh" not in out.getvalue()
+    }
+    assert set(left) == {"volume.h5", *written}, left
     return code
 
 
