@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.config.parts import GRIDS
-from bikestab.config.scanconfig import Expectation, Plane, ScanConfig
+from bikestab.config.scanconfig import CheckConfig, Expectation, Plane, ScanConfig
+from bikestab.config.values import Strict
 from bikestab.config.variation import Distribution, Ensemble
 from bikestab.errors import InputError, dotted, nearest
 from bikestab.fields import AXES
@@ -20,6 +21,8 @@ from bikestab.formats.kinds import expected
 from bikestab.notation import MEASURED
 from bikestab.rider import flattened
 from bikestab.units import shown
+
+Form = TypeVar("Form", bound=Strict)
 
 
 def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
@@ -31,23 +34,40 @@ def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
         return parse_config(yamltext.read(path), overrides)
 
 
+def load_checked(path: str | Path) -> ScanConfig | CheckConfig:
+    """Read what ``bikestab check`` needs: a scan's YAML file, or one without a grid.
+
+    Raises as ``load_config``.
+    """
+    with expected("config", path):
+        document = yamltext.read(path)
+        if isinstance(document.data, dict) and document.data.keys() <= CheckConfig.model_fields.keys():
+            return _parsed(document, {}, CheckConfig)
+        return parse_config(document)
+
+
 def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> ScanConfig:
     """The configuration in a parsed YAML document; see ``load_config``."""
     places = {}
     for override in overrides:
         key, document = _override(document, override)
         places[key] = f"--set {override}"
+    return _parsed(document, places, ScanConfig).with_text(document.text)
+
+
+def _parsed(document: yamltext.Document, places: dict[tuple[str | int, ...], str], form: type[Form]) -> Form:
     try:
         data = _plain(document.data)
         for name in ("sweep", "ensemble"):
             if isinstance(data.get(name), dict) and isinstance(data[name].get("rider"), dict):
                 data[name] = flattened(data[name])  # as --set sweep.rider.m=... builds it
-        data.setdefault("output", f"out/{Path(document.file).stem}")
+        if form is ScanConfig:
+            data.setdefault("output", f"out/{Path(document.file).stem}")
         if "bicycle" in data:
             typed = ("bicycle",) in places  # in a command, where paths start from the current folder
             data["bicycle"] = _load_bicycle(data["bicycle"], "" if typed else Path(document.file).parent)
         try:
-            return ScanConfig.model_validate(data).with_text(document.text)
+            return form.model_validate(data)
         except ValidationError as error:
             raise _translated(error) from None
     except InputError as error:

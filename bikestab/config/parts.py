@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, ConfigDict, Discriminator, Field, Tag, model_validator
 
 from bikestab.config.measured import also_measured, also_measured_axes
+from bikestab.config.tolerance import Within
 from bikestab.config.values import (
     ABSENT,
     BY_KEYS,
@@ -21,7 +22,6 @@ from bikestab.config.values import (
     TrailAxis,
     UpperSpeed,
     Values,
-    Within,
     in_si,
     json_schema,
     mistake,
@@ -178,7 +178,7 @@ class Expectation(Strict):
     sigma: Trail | None = None
     V1: Speed | None = None
     V2: UpperSpeed | None = None  # inf for "unbounded"
-    within: Within = 0.001
+    within: Within = 0.001  # m/s, or per cent of V1 and V2: "1%"
     stable: Literal["never"] | None = None
 
     @model_validator(mode="after")

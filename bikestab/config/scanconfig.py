@@ -63,22 +63,46 @@ def _bicycle(value: object) -> Bicycle:
     raise mistake(f"{shown(value)} is no bicycle", "allowed: a preset, a path to a YAML file, or parameters")
 
 
+Machine: TypeAlias = Annotated[
+    Bicycle,
+    BeforeValidator(_bicycle),
+    WithJsonSchema({"anyOf": [{"type": "string", "examples": preset_names()}, IN_PLACE]}),
+    Field(description="a preset, a path to a file from this file's folder, or the parameters in place"),
+]
+OwnDamping: TypeAlias = Annotated[
+    Damping | None, Field(description="steering damping instead of the bicycle's own [kg m²/s]")
+]
+
+
+class CheckConfig(Strict):
+    """What ``bikestab check`` needs of a config that is none of a scan."""
+
+    title: Annotated[str, Field(strict=True)] = ""
+    bicycle: Machine
+    model: Model = "refined"
+    delta: OwnDamping = None
+    expect: list[Expectation] = []
+
+    @model_validator(mode="before")
+    @classmethod
+    def _measured(cls, given: Any) -> Any:
+        return in_lam_and_sigma(given)
+
+    @property
+    def machine(self) -> Bicycle:
+        """The bicycle with the damping that is used."""
+        return self.bicycle.with_delta(self.delta)
+
+
 class ScanConfig(Strict):
     """What ``bikestab scan`` computes and where it puts the result."""
 
     title: Annotated[
         str, Field(strict=True, description="printed on the pictures and stored in the volume")
     ] = ""
-    bicycle: Annotated[
-        Bicycle,
-        BeforeValidator(_bicycle),
-        WithJsonSchema({"anyOf": [{"type": "string", "examples": preset_names()}, IN_PLACE]}),
-        Field(description="a preset, a path to a file from this file's folder, or the parameters in place"),
-    ]
+    bicycle: Machine
     model: Annotated[Model, Field(description="refined, or unrefined as before the 1981 paper")] = "refined"
-    delta: Annotated[
-        Damping | None, Field(description="steering damping instead of the bicycle's own [kg m²/s]")
-    ] = None
+    delta: OwnDamping = None
     grid: AnyGrid
     fields: Annotated[list[FieldName], Field(min_length=1, description="what the volume holds")] = [
         "stable",

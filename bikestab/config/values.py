@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Annotated, Any, Generic, TypeAlias, TypeVar
 
@@ -34,6 +35,12 @@ def mistake(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> Pydanti
 
 
 def _reads(units: Units, check: str = "") -> BeforeValidator:
+    return BeforeValidator(reader(units, check))
+
+
+def reader(units: Units, check: str = "") -> Callable[[object], float]:
+    """What makes a number of a value, in SI units; it raises a mistake for what is none, or fails a check."""
+
     def validate(value: object) -> float:
         words = ", or unbounded" if check == "upper speed" else ""
         if words and value == "unbounded":
@@ -56,7 +63,7 @@ def _reads(units: Units, check: str = "") -> BeforeValidator:
             raise mistake(f"{number:g} is no share of the samples", "allowed: between 0 and 1, both excluded")
         return number + 0.0  # of −0 that makes 0
 
-    return BeforeValidator(validate)
+    return validate
 
 
 def json_schema(units: Units, *words: str) -> dict[str, Any]:
@@ -90,7 +97,6 @@ Tilt: TypeAlias = Annotated[float, _reads(ANGLE, "tilt"), _schema(ANGLE)]
 Trail: TypeAlias = Annotated[float, _reads(PURE, "trail")]
 Speed: TypeAlias = Annotated[float, _reads(SPEED, "speed"), _schema(SPEED)]
 UpperSpeed: TypeAlias = Annotated[float, _reads(SPEED, "upper speed"), _schema(SPEED, "unbounded")]
-Within: TypeAlias = Annotated[float, _reads(SPEED, "positive"), _schema(SPEED)]
 Damping: TypeAlias = Annotated[float, _reads(DAMPING, "not negative"), _schema(DAMPING)]
 Number: TypeAlias = Annotated[float, _reads(PURE), WithJsonSchema({"anyOf": [{"type": "number"}, _ANY_UNIT]})]
 Share: TypeAlias = Annotated[

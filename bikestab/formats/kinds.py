@@ -49,7 +49,7 @@ def kind_of(path: str | Path) -> str:
         return "picture"
     text = head.decode("utf-8", errors="ignore")
     keys = set(_KEY.findall(text))
-    if "grid" in keys and "bicycle" in keys:
+    if "bicycle" in keys and keys & {"grid", "expect"}:
         return "config"
     if any(pair <= keys for pair in _OF_BICYCLES) or jbike6.looks_like(text):
         return "bicycle"

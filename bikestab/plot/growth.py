@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
@@ -17,27 +18,27 @@ from bikestab.plot.sidelabels import label_right, lines_for
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
 
+Curve = tuple[str, Bicycle, float, float, Model]  # name, machine, λ [rad], σ, and the equations
 _SAMPLES = 601
 _LINEAR = 1.0  # 1/s: below it the scale is linear, where stability is decided
 
 
 @own_settings()
-def draw_growth(
-    machines: Sequence[tuple[str, Bicycle, float, float]],
-    start: float,
-    stop: float,
-    *,
-    model: Model = "refined",
-) -> Figure:
-    """Machines by name, each at a tilt λ [rad] and a trail σ [1], at speeds from ``start`` to ``stop`` [m/s].
+def draw_growth(machines: Sequence[Curve], start: float, stop: float) -> Figure:
+    """The curves of machines for speeds from ``start`` to ``stop`` [m/s].
 
     Raises InputError for more machines than there are lines that differ.
     """
-    lines = lines_for(len(machines))
     figure = Figure(figsize=(8.2, 5.2), layout="constrained")
-    ax = figure.add_subplot()
+    growth_axes(figure.add_subplot(), machines, start, stop)
+    return figure
+
+
+def growth_axes(ax: Axes, machines: Sequence[Curve], start: float, stop: float) -> None:
+    """The same in axes of a picture."""
+    lines = lines_for(len(machines))
     ends, low, high = [], 0.0, 0.0
-    for (_, bicycle, lam, sigma), line in zip(machines, lines, strict=True):
+    for (_, bicycle, lam, sigma, model), line in zip(machines, lines, strict=True):
         table = exact_table(bicycle, lam, sigma, model=model)
         found = intervals_of(table)
         edges = np.concatenate([found.V1[: found.number], found.V2[: found.number]])
@@ -63,9 +64,4 @@ def draw_growth(
     ax.set_ylabel(f"growth rate [s⁻¹]  (scale logarithmic beyond ±{_LINEAR:g})")
     ax.tick_params(direction="in", top=True, right=True)
     label_right(ax, [name for name, *_ in machines], [stop] * len(ends), ends, [line.color for line in lines])
-    set_title(
-        ax,
-        "Largest real part of the eigenvalues; thick below zero: stable"
-        + ("" if model == "refined" else f", {model} model"),
-    )
-    return figure
+    set_title(ax, "Largest real part of the eigenvalues; thick below zero: stable")

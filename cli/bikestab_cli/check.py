@@ -4,60 +4,151 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
-from bikestab_cli.options import NAME, of_file
-from bikestab_cli.output import certain, table
+from bikestab_cli.options import FILE, NAME, check_files, json_option, of_file
+from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, print_json, table, tell_file
+
+from bikestab.errors import BikestabError, InputError
 
 if TYPE_CHECKING:
     from bikestab.config.expectations import Outcome
-    from bikestab.records import Interval
+    from bikestab.export.junit import Suite
+
+
+class Checked(NamedTuple):
+    """A config by its file's name: what was found of it, or why nothing was."""
+
+    name: str
+    bicycle: str
+    model: str
+    outcomes: list[Outcome]
+    error: BikestabError | None
 
 
 @click.command("check")
 @click.argument("configs", type=NAME, nargs=-1, required=True, metavar="CONFIG...")
-def command(configs: tuple[str, ...]) -> None:
+@click.option("--junit", type=FILE, metavar="FILE", help="Write the results as JUnit XML, for CI servers.")
+@json_option
+def command(configs: tuple[str, ...], junit: str | None, as_json: bool) -> None:
     """Compare what configs expect with the exact speeds.
 
-    For CI. Reads their 'expect' entries; needs no scan. Exit code 0 if all hold, 1 if one does not. An
-    entry with V1 and/or V2 holds if one of the stable intervals has these ends within 'within' m/s;
-    'stable: never' if there is none.
+    For CI. Reads their 'expect' entries; needs no scan, and no grid in the file: only 'bicycle' and 'expect'.
+    An entry with V1 and/or V2 holds if one of the stable intervals has these ends within 'within', a speed
+    or per cent of it ('1%'); 'stable: never' if there is none. Without lam and sigma it is of the bicycle's
+    own design.
+
+    Every file is looked at. Exit code 0 if all hold, 1 if one does not, 2 if a file cannot be used.
 
     \b
-    Example:
+    Examples:
       bikestab check configs/dikarev1981.yaml configs/meijaard2007.yaml
+      bikestab check configs/quick.yaml configs/sharp1971.yaml --junit results.xml
+      bikestab check configs/quick.yaml --json
     """
-    from bikestab.config.expectations import outcomes
-    from bikestab.config.file import load_config
+    check_files(junit)
+    checked = [_checked(name) for name in configs]
+    if junit:
+        from bikestab.export.junit import save_junit
 
-    rows, failed = [], 0
-    for name in configs:
-        with of_file(name):
-            found = outcomes(load_config(name))
-        failed += sum(not outcome.holds for outcome in found)
-        rows += [[name, *_row(outcome)] for outcome in found]
+        save_junit([_suite(each) for each in checked], junit)
+    failed = sum(not outcome.holds for each in checked for outcome in each.outcomes)
+    number = sum(len(each.outcomes) for each in checked)
     with suppress(BrokenPipeError):  # the exit code is wanted also by those who read no more
-        click.echo(table(["config", "lam", "sigma", "expected [m/s]", "found [m/s]", ""], rows))
+        if as_json:
+            results = [record for each in checked for record in _records(each)]
+            print_json({"results": results, **({"files": {"junit": junit}} if junit else {})})
+        else:
+            if number:
+                click.echo(_table(checked))
+            if junit:
+                tell_file(junit)
+    codes = [0, *(2 if isinstance(each.error, InputError) else 3 for each in checked if each.error)]
+    for each in checked:
+        if each.error:
+            click.echo("error: " + "\n  ".join(str(each.error).split("\n")), err=True)
     if failed:
-        click.echo(f"{failed} of {len(rows)} expectations failed", err=True)
-        click.get_current_context().exit(1)
+        click.echo(f"{failed} of {number} expectations failed", err=True)
+    click.get_current_context().exit(max(*codes, 1 if failed else 0))
 
 
-def _row(outcome: Outcome) -> list[str]:
+def _checked(name: str) -> Checked:
+    from bikestab.config.expectations import outcomes
+    from bikestab.config.file import load_checked
+
+    try:
+        with of_file(name):
+            config = load_checked(name)
+            return Checked(name, config.machine.name, config.model, outcomes(config), None)
+    except BikestabError as error:
+        return Checked(name, "", "", [], error)
+
+
+def _table(checked: list[Checked]) -> str:
+    lam, sigma, offset = DESIGN_HEAD
+    rows = []
+    for each in checked:
+        rows += [_row(each.name, outcome) for outcome in each.outcomes]
+        if each.error:
+            rows.append([each.name, "", "", "", "", "ERROR"])
+    return table(["config", lam, sigma + offset, "expected\n[m/s]", "found\n[m/s]", ""], rows, fold=0)
+
+
+def _row(name: str, outcome: Outcome) -> list[str]:
     expected = outcome.expected
-    wanted = "never" if expected.stable else f"{_text(expected.V1)} ... {_text(expected.V2)}"
-    found = ", ".join(map(_found, outcome.found)) or "never"
+    lam, sigma, offset = design_columns(outcome.design)
+    wanted = f"{_text(expected.V1)}\n{_text(expected.V2)}\nwithin {_within(expected.within)}"
+    found = []
+    for interval in outcome.found:
+        V2 = "unbounded"
+        if interval["V2"] is not None:
+            V2 = certain(interval["V2"], interval["V2_error"], 13, "g")
+        found += [certain(interval["V1"], interval["V1_error"], 13, "g"), V2]
     verdict = "holds" if outcome.holds else "FAILED"
-    return [f"{outcome.lam:.6g}", f"{outcome.sigma:.6g}", wanted, found, verdict]
-
-
-def _found(interval: Interval) -> str:
-    V2 = "unbounded"
-    if interval["V2"] is not None:
-        V2 = certain(interval["V2"], interval["V2_error"], 13, "g")
-    return f"{certain(interval['V1'], interval['V1_error'], 13, 'g')} ... {V2}"
+    return [name, lam, sigma + offset, expected.stable or wanted, "\n".join(found) or "never", verdict]
 
 
 def _text(V: float | None) -> str:
     return "any" if V is None else "unbounded" if math.isinf(V) else f"{V:.13g}"
+
+
+def _within(tolerance: float | str) -> str:
+    return tolerance if isinstance(tolerance, str) else f"{tolerance:g}"
+
+
+def _records(checked: Checked) -> list[dict[str, Any]]:
+    if checked.error:
+        return [{"config": checked.name, "error": str(checked.error)}]
+    whose = {"config": checked.name, "bicycle": checked.bicycle, "model": checked.model}
+    return [
+        {
+            **whose, **outcome.design, "expected": _expected(outcome), "intervals": outcome.found,
+            "holds": outcome.holds,
+        }
+        for outcome in checked.outcomes
+    ]  # fmt: skip
+
+
+def _expected(outcome: Outcome) -> dict[str, Any]:
+    """As it may stand in a config; what is not asked for is left out."""
+    expected = outcome.expected
+    if expected.stable:
+        return {"stable": expected.stable}
+    ends = {"V1": expected.V1, "V2": "unbounded" if math.inf == expected.V2 else expected.V2}
+    return {**{name: V for name, V in ends.items() if V is not None}, "within": expected.within}
+
+
+def _suite(checked: Checked) -> Suite:
+    from bikestab.export.junit import Case, Suite
+
+    if checked.error:
+        return Suite(checked.name, [Case("config", "cannot be used", str(checked.error))])
+    cases = []
+    for number, outcome in enumerate(checked.outcomes):
+        _, lam, sigma, wanted, found, _ = (cell.replace("\n", " ") for cell in _row("", outcome))
+        design = f"lam {lam.split()[0]}, sigma {sigma.split()[0]}"
+        problem = "" if outcome.holds else "another stable interval, or none, was found"
+        text = f"expected [m/s]: {wanted}\nfound [m/s]: {found}"
+        cases.append(Case(f"expect[{number}]: {design}", problem, text))
+    return Suite(checked.name, cases)

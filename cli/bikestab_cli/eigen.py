@@ -146,6 +146,6 @@ def _draw(found: list[Followed], start: float, stop: float, model: Model, name: 
     else:
         from bikestab.plot.growth import draw_growth
 
-        named = [(each.machine.words, *design) for each, design in zip(found, designs, strict=True)]
-        figure = draw_growth(named, start, stop, model=model)
+        named = [(each.machine.words, *design, model) for each, design in zip(found, designs, strict=True)]
+        figure = draw_growth(named, start, stop)
     save(figure, Path(name))

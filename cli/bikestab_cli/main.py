@@ -18,7 +18,7 @@ from bikestab.files import NOT_THERE
 
 COMMANDS = (
     "scan", "vrange", "sensitivity", "eigen", "design", "slice", "export", "reproduce", "certify", "check",
-    "info", "bicycles", "convert", "init", "schema",
+    "compare", "info", "bicycles", "convert", "init", "schema",
 )  # fmt: skip
 LEAST_MEMORY = 512 << 20
 _NO_MEMORY = "failed to map segment"  # the loader's words for it

@@ -59,12 +59,16 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], fold: int | None =
 
 
 def _wrapped(line: str, width: int) -> list[str]:
-    """A line in parts of at most ``width`` letters, broken at blanks, or behind a slash or hyphen."""
-    if len(line) <= width:
-        return [line]
-    import textwrap  # few tables need it
-
-    return textwrap.wrap(line, width) or [""]
+    """A line in parts of at most ``width`` letters, broken behind blanks and slashes where there are some."""
+    lines = [""]
+    for word in line.replace("/", "/\0").replace(" ", " \0").split("\0") if len(line) > width else [line]:
+        part = word
+        while len(lines[-1] + part.rstrip()) > width:
+            if not lines[-1]:
+                lines[-1], part = part[:width], part[width:]
+            lines.append("")
+        lines[-1] += part
+    return [text.rstrip() for text in lines]
 
 
 def prose(text: str) -> str:

@@ -63,7 +63,9 @@ def run(tmp_path, monkeypatch, capsys):
         printed = []
         for line in lines:
             command, _, target = line.partition(" > ")
-            monkeypatch.setattr(sys, "argv", shlex.split(command, comments=True))
+            words = shlex.split(command, comments=True)
+            files = [sorted(map(str, Path().glob(word))) if "*" in word else [word] for word in words]
+            monkeypatch.setattr(sys, "argv", [word for found in files for word in found])
             with pytest.raises(SystemExit) as exit_:
                 main()
             out, err = capsys.readouterr()

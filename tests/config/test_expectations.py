@@ -25,7 +25,7 @@ def test_an_outcome_says_what_was_found():
     first, second = found(
         "lam: 0.05, sigma: 0.15, V1: 4.8065, V2: unbounded", "lam: 0.1, sigma: 0.08, stable: never"
     )
-    assert (first.holds, first.lam, first.sigma) == (True, 0.05, 0.15)
+    assert (first.holds, first.design["lam"], first.design["sigma"]) == (True, 0.05, 0.15)
     assert math.inf == first.expected.V2
     assert [(i["V2"], i["upper"]) for i in first.found] == [(None, "unbounded")]
     assert (second.holds, second.found) == (True, [])

@@ -16,7 +16,7 @@ from bikestab.region.answers import stable_speeds
 
 
 def presets(*names):
-    return [(name, bike := Bicycle.preset(name), bike.lam, bike.sigma) for name in names]
+    return [(name, bike := Bicycle.preset(name), bike.lam, bike.sigma, "refined") for name in names]
 
 
 def names_in(figure):
@@ -34,7 +34,7 @@ def test_growth_rates_have_a_curve_a_name_and_the_exact_ends():
 def test_ends_over_a_range_and_as_bars():
     machines = [
         (name, stable_speeds(bike, lam, np.linspace(0.01, 0.1, 10), nearest=False))
-        for name, bike, lam, _ in presets("meijaard2007", "kooijman2011")
+        for name, bike, lam, _, _ in presets("meijaard2007", "kooijman2011")
     ]
     (ax,) = draw_ends(machines, "trail").axes
     V1 = ax.lines[0]
@@ -42,7 +42,7 @@ def test_ends_over_a_range_and_as_bars():
     assert V1.get_xdata()[3] == pytest.approx(0.04 * 1.02)
     own = [
         (name, stable_speeds(bike, lam, sigma))
-        for name, bike, lam, sigma in presets("sharp1971", "meijaard2007")
+        for name, bike, lam, sigma, _ in presets("sharp1971", "meijaard2007")
     ]
     figure = draw_ends(own, "")
     assert [bar.get_x() for bar in figure.axes[0].patches] == [

@@ -1,0 +1,41 @@
+"""The picture of two machines: their growth rates at their designs, and where exactly one is stable."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bikestab.comparison import Box, Region, Side
+from bikestab.plot.axes import HALO, label_axes
+from bikestab.plot.growth import growth_axes
+from bikestab.plot.headings import set_title, short
+from bikestab.plot.settings import own_settings
+
+
+@own_settings()
+def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
+    """Growth rates where both have a design, and a map over λ and σ where the box has lengths in both."""
+    sides = [(f"{letter}: {short(side.name)}", side) for letter, side in (("A", A), ("B", B))]
+    curves = [(name, side.bicycle, *side.design, side.model) for name, side in sides if side.design]
+    plane = min(len(box.lam), len(box.sigma)) > 1
+    number = bool(curves) + plane
+    figure = Figure(figsize=(6.6 * max(number, 1), 5.0), layout="constrained")
+    if curves:
+        growth_axes(figure.add_subplot(1, number, 1), curves, *box.ends[2])
+    if plane:
+        ax = figure.add_subplot(1, number, number)
+        apart = np.ma.masked_equal(region.apart.T, 0)
+        image = ax.pcolormesh(
+            box.lam, box.sigma, apart, cmap="cividis", shading="nearest", vmin=0, rasterized=True
+        )
+        figure.colorbar(image, ax=ax).set_label("speeds at which exactly one is stable [m/s]")
+        for (name, side), marker in zip(sides, "os", strict=True):
+            if side.design:
+                ax.plot(*side.design, marker, ms=8, mfc="white", mec="black", clip_on=False)
+                ax.annotate(name[0], side.design, (7, 5), textcoords="offset points", path_effects=HALO)
+        ax.set_xlim(*box.ends[0])
+        ax.set_ylim(*box.ends[1])
+        label_axes(ax, "lam", "sigma", A.bicycle.c)
+        words = f"Stable regions differ in {100 * region.share:.3g} % of their union"
+        set_title(ax, f"{words}; white: no difference")
+    return figure

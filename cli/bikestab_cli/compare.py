@@ -1,0 +1,206 @@
+"""bikestab compare: what moved from one bicycle, config or volume to another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import click
+from bikestab_cli.chosen import Given, design_chosen, design_options
+from bikestab_cli.options import (
+    FILE,
+    NAME,
+    at_option,
+    check_files,
+    equation_options,
+    json_option,
+    load_bicycle,
+    warn,
+)
+from bikestab_cli.output import print_json, tell_file
+
+from bikestab.errors import InputError
+
+if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
+    from bikestab.comparison import Box, Side
+    from bikestab.model import Model
+
+BOX = ((0.0, 0.6), (0.0, 0.3), (0.0, 30.0))  # that in which 'bikestab design' searches
+
+
+class _Tolerance(click.ParamType):
+    """A speed, or per cent."""
+
+    name = "tolerance"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        from pydantic_core import PydanticCustomError
+
+        from bikestab.config.tolerance import tolerance
+
+        try:
+            return tolerance(value)
+        except PydanticCustomError as error:
+            known = error.context or {}
+            self.fail(f"{known['problem']}; {known['hint']}, or 1%", param, ctx)
+
+
+@click.command("compare")
+@click.argument("one", type=NAME, metavar="A")
+@click.argument("other", type=NAME, metavar="B")
+@click.option(
+    "--within", type=_Tolerance(), metavar="PERCENT|SPEED",
+    help="Exit with 1 if an end of the stable speeds or the stable region moved by more: 1%, or 0.05.",
+)  # fmt: skip
+@design_options()
+@equation_options
+@at_option
+@click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw both as PNG, PDF or SVG.")
+@json_option
+def command(
+    one: str,
+    other: str,
+    within: float | str | None,
+    given: Given,
+    model: Model,
+    delta: float | None,
+    machine: dict[str, float],
+    output: str | None,
+    as_json: bool,
+) -> None:
+    """Compare two bicycles, configs or volumes.
+
+    Each of A and B is a bicycle that comes with bikestab, or a file of one, a scan's config, or a volume or
+    its folder. Compared are their parameters, the stable speeds of their own designs, or of the one that is
+    given, what happens at their ends, and the growth rate in the middle; and over tilts, trails and speeds
+    where exactly one is stable: the volume of the symmetric difference of their stable regions, as a share of
+    their union. It is exact along the speed and a sum over designs: those of the grids where these are the
+    same, else 81 × 81 in what both have of a box, for bicycles λ = 0 ... 0.6, σ = 0 ... 0.3 and 0 ... 30 m/s.
+
+    --within is per cent of each end of A, and of the union; as a speed it is the distance of each end, and
+    the mean distance of the regions' speeds. Other ends, or another number of intervals, are always beyond
+    it. Exit code 1 if something is.
+
+    \b
+    Examples:
+      bikestab compare meijaard2007 sharp1971
+      bikestab compare configs/quick.yaml configs/dikarev1981.yaml --within 1%
+      bikestab compare meijaard2007 meijaard2007 --head-angle 71deg --trail 55mm --within 0.01
+      bikestab compare meijaard2007 kooijman2011 -o both.png
+    """
+    from bikestab_cli.compare_words import told
+
+    from bikestab.changes import compare
+
+    check_files(output)
+    found = [_opened(name, given, model, delta, machine) for name in (one, other)]
+    box, (A, B) = _box(found)
+    record, region = compare(A, B, box, within)
+    files = {}
+    if output:
+        from bikestab.plot.compared import draw_compared
+        from bikestab.plot.files import save
+
+        save(draw_compared(A, B, box, region), Path(output))
+        files["picture"] = output
+    if as_json:
+        print_json({"results": [record], **({"files": files} if files else {})})
+    else:
+        click.echo(told(record))
+        if output:
+            tell_file(output)
+    click.get_current_context().exit(1 if record["holds"] is False else 0)
+
+
+class _Axes(NamedTuple):
+    """The designs and the box of a config or a volume."""
+
+    lam: Any
+    sigma: Any
+    ends: tuple[tuple[float, float], ...]
+
+
+def _opened(
+    name: str, given: Given, model: Model, delta: float | None, machine: dict[str, float]
+) -> tuple[Side, _Axes | None]:
+    """What a name stands for, and its grid if it has one."""
+    from bikestab.formats.kinds import kind_of
+
+    if Path(name).is_dir() or kind_of(name) == "volume":
+        return _volume(name, given, machine)
+    if kind_of(name) == "config":
+        return _config(name, given)
+    bicycle = load_bicycle(name, delta)
+    return _side(name, bicycle, model, given), None
+
+
+def _side(name: str, bicycle: Bicycle, model: Model, given: Given, stored: Any = None) -> Side:
+    from bikestab.comparison import Side
+
+    own = bicycle.lam is not None and bicycle.sigma is not None
+    return Side(name, bicycle, model, design_chosen(bicycle, given) if own or given else None, stored)
+
+
+def _volume(name: str, given: Given, machine: dict[str, float]) -> tuple[Side, _Axes]:
+    from bikestab.volume import Volume
+
+    with Volume(name) as whole:
+        opened = whole.at(machine)
+        _check_axes(name, opened.axes)
+        axes = [opened.axis(axis) for axis in ("lam", "sigma", "V")]
+        stored = opened.read("V1"), opened.read("V2")
+        side = _side(name, opened.bicycle, opened.model, given, stored)
+    return side, _Axes(axes[0], axes[1], tuple((float(x[0]), float(x[-1])) for x in axes))
+
+
+def _config(name: str, given: Given) -> tuple[Side, _Axes | None]:
+    from bikestab.config.file import load_checked
+    from bikestab.config.scanconfig import ScanConfig
+
+    config = load_checked(name)
+    warn(config.machine)
+    side = _side(name, config.machine, config.model, given)
+    if not isinstance(config, ScanConfig):
+        return side, None
+    grid = config.grid
+    _check_axes(name, grid.names)
+    ends = tuple(grid.ends(axis) for axis in ("lam", "sigma", "V"))
+    return side, _Axes(grid.values("lam"), grid.values("sigma"), ends)
+
+
+def _check_axes(name: str, axes: Sequence[str]) -> None:
+    if tuple(axes) != ("lam", "sigma", "V"):
+        problem = f"its designs are over {axes[0]} and {axes[1]}"
+        raise InputError(problem, place=name, hint="only designs of tilt and trail are compared")
+
+
+def _box(found: Sequence[tuple[Side, _Axes | None]]) -> tuple[Box, list[Side]]:
+    """What both have of the designs and speeds; of other designs the speeds are computed anew."""
+    import numpy as np
+
+    from bikestab.comparison import Box, box_of
+
+    known = [axes for _, axes in found if axes]
+    ends: Any = BOX
+    if known:
+        both = [zip(*pairs, strict=True) for pairs in zip(*(axes.ends for axes in known), strict=True)]
+        ends = tuple((max(low), min(high)) for low, high in both)
+    for name, (low, high) in zip(("lam", "sigma", "V"), ends, strict=True):
+        if low > high:
+            problem = f"the two have no {name} in common"
+            raise InputError(problem, hint="; ".join(_span(axes, name) for axes in known))
+    first = known[0] if known else None
+    same = first and all(
+        np.array_equal(axes.lam, first.lam) and np.array_equal(axes.sigma, first.sigma) for axes in known
+    )
+    sides = [side for side, _ in found]
+    if first and same:
+        return Box(first.lam, first.sigma, ends), sides
+    return box_of(ends), [side._replace(stored=None) for side in sides]
+
+
+def _span(axes: _Axes, name: str) -> str:
+    low, high = axes.ends[("lam", "sigma", "V").index(name)]
+    return f"{name} = {low:g} ... {high:g}"

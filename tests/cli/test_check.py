@@ -1,0 +1,153 @@
+"""bikestab check on many files: no grid, per cent, JSON, JUnit, and the worst exit code."""
+
+import json
+import re
+from pathlib import Path
+
+import junitparser
+import pytest
+from ruamel.yaml import YAML
+
+from bikestab.config.tolerance import allowance
+
+ROOT = Path(__file__).parents[2]
+SMALL = "bicycle: meijaard2007\nexpect: [{}]\n"
+
+
+def write(name, *entries):
+    Path(name).write_text(SMALL.format(", ".join(f"{{{entry}}}" for entry in entries)), "utf-8")
+
+
+@pytest.mark.parametrize(
+    ("entry", "code"),
+    [
+        ("V1: 4.33, V2: 5.97, within: 1%", 0),  # V1 within 0.0433
+        ("V1: 4.34, within: 1%", 1),
+        ("V1: 4.34, within: 1.2 %", 0),
+        ("V1: 15.4km/h, within: 0.5km/h", 0),
+        ("head_angle: 72deg, trail: 80mm, V1: 4.2924", 0),
+        ("stable: never", 1),
+    ],
+)
+def test_a_file_without_a_grid(bikestab, entry, code):
+    write("a.yaml", entry)
+    assert bikestab("check", "a.yaml")[0] == code
+
+
+def test_per_cent_are_of_what_is_expected():
+    assert allowance("2.5%", 4.0) == pytest.approx(0.1)
+    assert allowance(0.3, 4.0) == 0.3
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (SMALL.format("{V1: 4, within: 0%}"), "expect[0].within: 0% is out of range; allowed: above 0%"),
+        (SMALL.format("{V1: 4, within: 1 per cent}"), "expect[0].within"),
+        (SMALL.format("{V1: 4, within: a%}"), "'a%' is no percentage"),
+        (SMALL.format("{V1: 4}") + "grids: {}\n", "did you mean 'grid'?"),
+        (SMALL.format("{V1: 4}") + "slices: []\n", "grid: missing"),
+        ("bicycle: meijaard2007\n", "has no expectations"),
+        ("expect: [{V1: 4}]\n", "bicycle: missing"),
+    ],
+)
+def test_mistakes_of_small_files(bikestab, text, words):
+    Path("a.yaml").write_text(text, "utf-8")
+    code, _, err = bikestab("check", "a.yaml")
+    assert code == 2
+    assert words in " ".join(err.replace("\n", ";").replace(";  ", "; ").split())
+
+
+def test_all_files_are_looked_at_and_the_worst_code_is_returned(bikestab):
+    write("good.yaml", "V1: 4.29, within: 1%", "lam: 0.1, sigma: 0.02, stable: never")
+    write("bad.yaml", "V1: 5")
+    code, out, err = bikestab("check", "none.yaml", "bad.yaml", "good.yaml")
+    assert code == 2
+    assert err.startswith("error: none.yaml: there is no such file\n")
+    assert err.endswith("1 of 3 expectations failed\n")
+    assert re.findall("holds|FAILED|ERROR", out) == ["ERROR", "FAILED", "holds", "holds"]
+    assert bikestab("check", "bad.yaml", "good.yaml")[0] == 1
+    found = json.loads(bikestab("check", "none.yaml", "bad.yaml", "good.yaml", "--json")[1])["results"]
+    assert [each.get("holds") for each in found] == [None, False, True, True]
+    assert found[0]["error"].startswith("none.yaml: there is no such file")
+    assert found[2]["expected"] == {"V1": 4.29, "within": "1%"}
+    assert found[2]["intervals"][0]["V1"] == pytest.approx(4.292382536341104, abs=1e-15)
+
+
+# what the schema of Jenkins allows and needs, and others read: attributes, and what may stand within
+ALLOWED = {
+    "testsuites": ({"name", "tests", "failures", "errors", "time"}, {"testsuite"}),
+    "testsuite": (
+        {"name", "tests", "failures", "errors", "time", "skipped", "timestamp"}, {"testcase"}
+    ),
+    "testcase": ({"name", "classname", "time"}, {"failure", "system-out"}),
+    "failure": ({"type", "message"}, set()),
+    "system-out": (set(), set()),
+}  # fmt: skip
+
+
+def test_junit(bikestab):
+    write("good.yaml", "V1: 4.29, within: 1%", "V2: 6.02, within: 1%")
+    write("bad & <odd>.yaml", "V1: 5")
+    files = ("good.yaml", "bad & <odd>.yaml", "none\x01.yaml")
+    code, out, _ = bikestab("check", *files, "--junit", "results.xml")
+    assert (code, out.splitlines()[-1]) == (2, "results.xml")
+    read = junitparser.JUnitXml.fromfile("results.xml")
+    assert (read.tests, read.failures, read.errors) == (4, 2, 0)
+    suites = list(read)
+    assert [suite.name for suite in suites] == [*files[:2], "none\N{REPLACEMENT CHARACTER}.yaml"]
+    assert [[case.is_passed for case in suite] for suite in suites] == [[True, True], [False], [False]]
+    (failure,) = next(iter(suites[1])).result
+    assert failure.text == "expected [m/s]: 5 any within 0.001\nfound [m/s]: 4.292382536341 6.024262015388"
+
+    def look(element):
+        attributes, inner = ALLOWED[element.tag]
+        assert set(element.attrib) == attributes
+        assert {child.tag for child in element} <= inner
+        assert all(re.fullmatch(r"\d*(\.\d{1,3})?", element.get("time", "0")) for _ in "x")
+        for child in element:
+            look(child)
+
+    look(read._elem)
+
+
+def test_junit_that_cannot_be_written(bikestab):
+    write("good.yaml", "V1: 4.29, within: 1%")
+    code, out, err = bikestab("check", "good.yaml", "--junit", "no/results.xml")
+    assert (code, out) == (2, "")
+    assert "no/results.xml: cannot be written" in err
+
+
+def jobs():
+    """The YAML examples of docs/ci.md that are jobs, by the lines that they run."""
+    text = (ROOT / "docs" / "ci.md").read_text("utf-8")
+    for block in re.findall(r"^```yaml\n(# \.git.*?)^```", text, re.M | re.S):
+        for job in [*YAML(typ="safe", pure=True).load(block).values()]:
+            steps = job.get("check", job) if isinstance(job, dict) else {}
+            if "steps" in steps:
+                yield [step["run"] for step in steps["steps"] if "run" in step]
+            elif "script" in steps:
+                yield steps["script"]
+
+
+def test_the_jobs_of_the_page_run(bikestab, monkeypatch):
+    found = list(jobs())
+    assert len(found) == 2
+    Path("configs").symlink_to(ROOT / "configs")
+    from bikestab.bicycle import Bicycle
+
+    given = Bicycle.preset("meijaard2007").given
+    Path("measured.txt").write_text(
+        "".join(f"{k} = {v} +/- {abs(v) / 100}\n" for k, v in given.items()), "utf-8"
+    )
+    for lines in found:
+        assert lines[0] == "pip install ."
+        for line in lines[1:]:
+            words = line.split()
+            assert words.pop(0) == "bikestab"
+            args = [
+                str(path) for word in words for path in (sorted(Path().glob(word)) if "*" in word else [word])
+            ]
+            code, out, _ = bikestab(*args)
+            assert (code, bool(out)) == (0, True), line
+        assert junitparser.JUnitXml.fromfile("results.xml").failures == 0

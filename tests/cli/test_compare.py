@@ -1,0 +1,150 @@
+"""bikestab compare: bicycles, configs and volumes, what moved, and the exit code."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bikestab.bicycle import Bicycle
+from bikestab.comparison import Side, box_of, region
+from bikestab.model import exact_table
+from bikestab.spectrum import growth_rate_of
+from bikestab.stability import growth_rate
+
+GRID = """\
+grid:
+  lam: {start: 0.1, stop: 0.4, num: 7}
+  sigma: {start: 0.02, stop: 0.12, num: 6}
+  V: {start: 0, stop: 9, num: 10}
+"""
+
+
+def result(run):
+    code, out, _ = run
+    (found,) = json.loads(out)["results"]
+    return code, found
+
+
+def test_two_bicycles(bikestab):
+    code, found = result(bikestab("compare", "meijaard2007", "sharp1971", "--json"))
+    assert (code, found["within"], found["holds"]) == (0, None, None)
+    V1, V2 = found["ends"]
+    assert (V1["A"], V1["B"]) == (pytest.approx(4.292382536341), pytest.approx(6.055729077017))
+    assert V1["change"] == V1["B"] - V1["A"]
+    assert (V2["A_kind"], V2["B_kind"]) == ("capsize", "capsize")
+    rate = found["growth_rate"][0]
+    middle = (V1["A"] + V2["A"]) / 2
+    assert rate["A"] == pytest.approx(float(growth_rate(Bicycle.preset("meijaard2007"), middle)))
+    assert {"m1", "delta", "lam"} <= {each["what"] for each in found["parameters"]}
+    _, out, _ = bikestab("compare", "meijaard2007", "sharp1971")
+    assert max(map(len, out.splitlines())) <= 80
+    assert "V1 [m/s]" in out
+
+
+def test_the_region_that_differs_is_what_growth_rates_say():
+    """The share of points at which the signs of the growth rates differ; 20 000 random points."""
+    sides = [
+        Side(name, b := Bicycle.preset(name), "refined", (b.lam, b.sigma))
+        for name in ("meijaard2007", "sharp1971")
+    ]
+    ends = ((0.0, 0.6), (0.0, 0.3), (0.0, 30.0))
+    found = region(*sides, box_of(ends))
+    random = np.random.default_rng(1)
+    lam, sigma, V = (random.uniform(*e, 20_000) for e in ends)
+    stable = [growth_rate_of(exact_table(side.bicycle, lam, sigma), V) < 0 for side in sides]
+    box = 0.6 * 0.3 * 30
+    for number, volume in zip(
+        [*map(np.mean, stable), np.mean(stable[0] ^ stable[1]), np.mean(stable[0] | stable[1])],
+        [*found.volumes, found.difference, found.union], strict=True,
+    ):  # fmt: skip
+        assert volume / box == pytest.approx(number, abs=4 * np.sqrt(0.25 / 20_000))
+    assert found.share == pytest.approx(found.difference / found.union)
+    same = region(sides[0], sides[0], box_of(ends))
+    assert (same.difference, same.share, same.mean) == (0, 0, 0)
+
+
+@pytest.mark.parametrize(("within", "code"), [("13%", 0), ("3%", 1), ("0.4", 0), ("0.3", 1), ("1.5km/h", 0)])
+def test_the_exit_code(bikestab, within, code):
+    """With damping V1 is 1.9 % higher, and the regions differ by 12.1 % or 0.354 m/s."""
+    Path("damped.yaml").write_text(Path(bicycle_file()).read_text("utf-8") + "\ndelta: 1\n", "utf-8")
+    done = bikestab("compare", "meijaard2007", "damped.yaml", "--within", within, "--json")
+    found = result(done)[1]
+    assert done[0] == code, found["region"]
+    assert found["holds"] is (code == 0)
+
+
+def bicycle_file():
+    from bikestab.presets import preset_text
+
+    Path("preset.yaml").write_text(preset_text("meijaard2007"), "utf-8")
+    return "preset.yaml"
+
+
+def test_other_kinds_of_ends_are_always_beyond(bikestab):
+    code, out, _ = bikestab("compare", "meijaard2007", "kooijman2011", "--within", "100%")
+    assert code == 1
+    assert out.endswith("BEYOND 100%\n")
+
+
+def test_configs_and_volumes(bikestab):
+    Path("a.yaml").write_text("bicycle: meijaard2007\n" + GRID, "utf-8")
+    Path("b.yaml").write_text("bicycle: meijaard2007\ndelta: 1\n" + GRID, "utf-8")
+    for name in ("a", "b"):
+        assert bikestab("scan", f"{name}.yaml", "--quiet")[0] == 0
+    of_configs = result(bikestab("compare", "a.yaml", "b.yaml", "--json"))[1]
+    of_volumes = result(bikestab("compare", "out/a", "out/b/volume.h5", "--json"))[1]
+    assert of_configs["region"] == of_volumes["region"]
+    assert of_configs["region"]["designs"] == [7, 6]
+    assert of_configs["region"]["box"] == {"lam": [0.1, 0.4], "sigma": [0.02, 0.12], "V": [0, 9]}
+    for one, other in zip(of_configs["ends"], of_volumes["ends"], strict=True):
+        assert one["B"] == pytest.approx(other["B"], rel=1e-14)  # a volume has the paper's parameters
+    mixed = result(bikestab("compare", "out/a", "meijaard2007", "--within", "0.001%", "--json"))
+    assert (mixed[0], mixed[1]["region"]["difference"]) == (0, 0)
+    other = GRID.replace("start: 0.1,", "start: 0.2,").replace("V: {start: 0", "V: {start: 1")
+    Path("c.yaml").write_text("bicycle: meijaard2007\n" + other, "utf-8")
+    found = result(bikestab("compare", "out/a", "c.yaml", "--json"))[1]["region"]
+    assert (found["designs"], found["difference"]) == ([81, 81], 0)
+    assert found["box"] == {"lam": [0.2, 0.4], "sigma": [0.02, 0.12], "V": [1, 9]}
+
+
+def test_without_a_design_of_its_own(bikestab):
+    code, out, _ = bikestab("compare", "dikarev1981", "meijaard2007")
+    assert code == 0
+    assert "one of them has no design of its own: give --lam and --sigma" in out
+    code, found = result(
+        bikestab("compare", "dikarev1981", "dikarev1981", "--lam", "0.2", "--sigma", "0.08", "--json")
+    )
+    assert found["A"]["design"]["lam"] == 0.2
+    assert found["ends"][0]["change"] == 0
+
+
+def test_a_picture(bikestab):
+    _, out, _ = bikestab("compare", "meijaard2007", "sharp1971", "-o", "both.png", "--json")
+    assert json.loads(out)["files"] == {"picture": "both.png"}
+    assert Path("both.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (("meijaard2007", "nothing"), "there is no bicycle 'nothing'"),
+        (("meijaard2007",), "Missing argument 'B'"),
+        (("meijaard2007", "sharp1971", "--within", "0%"), "0% is out of range"),
+        (("meijaard2007", "sharp1971", "--within", "much"), "'much' is not a number"),
+        (("a.yaml", "b.yaml"), "the two have no lam in common"),
+        (("f.yaml", "b.yaml"), "f.yaml: its designs are over mB and xB"),
+    ],
+)
+def test_mistakes(bikestab, args, words):
+    Path("a.yaml").write_text("bicycle: meijaard2007\n" + GRID, "utf-8")
+    Path("b.yaml").write_text(
+        "bicycle: meijaard2007\n" + GRID.replace("0.1, stop: 0.4", "0.5, stop: 0.6"), "utf-8"
+    )
+    family = "grid: {x: {name: mB, start: 60, stop: 90, num: 3}, y: {name: xB, start: 0.2, stop: 0.4, num: 3}"
+    Path("f.yaml").write_text(
+        f"bicycle: meijaard2007\n{family}, V: {{start: 0, stop: 9, num: 9}}}}\n", "utf-8"
+    )
+    code, out, err = bikestab("compare", *args)
+    assert (code, out) == (2, "")
+    assert words in err
