@@ -77,7 +77,8 @@ def region(A: Side, B: Side, box: Box) -> Region:
     spans = [_spans(side, box) for side in (A, B)]
     one, other = ((high - low).sum(axis=-1) for low, high in spans)
     both = _overlap(*spans)
-    apart, union, cells = one + other - 2 * both, one + other - both, box.cells
+    apart = np.maximum(one + other - 2 * both, 0.0)  # rounding can make it negative
+    union, cells = one + other - both, box.cells
     some = float(cells[union > 0].sum())
     difference = float((apart * cells).sum())
     return Region(
