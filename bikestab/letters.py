@@ -13,6 +13,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.notation import reduced
 from bikestab.sines import plain_sine_cosine, sine_cosine
 from bikestab.twofold import Twofold, exact_sum
+from bikestab.unordered import Unordered
 
 if TYPE_CHECKING:
     from bikestab.machines import Machines
@@ -37,24 +38,36 @@ def letters_of(
     return letters(_doubles(bicycle), *plain_sine_cosine(lam), trail, model)
 
 
+def unordered_letters_of(
+    bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, model: Model
+) -> SimpleNamespace:
+    """``letters_of`` in twice double precision, as numbers for many operations in a row."""
+    trail = sigma if isinstance(sigma, float) else np.asarray(sigma)
+    p = {name: Unordered.of(a) for name, a in vars(_numbers(bicycle)).items()}
+    sin, cos = (Unordered.of(a) for a in sine_cosine(lam))
+    return letters(SimpleNamespace(**p), sin, cos, Unordered(trail), model)
+
+
 def letters(p: SimpleNamespace, sin: Any, cos: Any, trail: Any, model: Model) -> SimpleNamespace:
     """``letters_of`` parameters, l2 − c as ``ahead``, sin λ, cos λ and σ that are numbers of any kind."""
     if model not in MODELS:
         raise ValueError(f"model is {model!r}, not one of {MODELS}")
     C1, C2 = p.C1 / p.R1, p.C2 / p.R2  # C1° and C2°: angular momentum per unit of speed
-    mu = trail * cos  # c1/c
+    mu, c2 = trail * cos, trail * p.c  # c1/c, and the trail along the ground
     e = p.m2 * p.ahead
     h = p.m1 * p.h1 + p.m2 * p.h2
     l = p.m1 * p.l1 + p.m2 * p.l2  # noqa: E741  # the paper's letter
 
-    d = p.h2 * sin + (p.ahead - trail * p.c) * cos
+    d = p.h2 * sin + (p.ahead - c2) * cos
     J1 = p.m1 * p.h1 * p.h1 + p.A1 + p.m2 * p.h2 * p.h2 + p.A2
     J2 = p.m1 * p.l1 * p.l1 + p.B1 + p.m2 * p.l2 * p.l2 + p.B2
     J12 = p.m1 * p.h1 * p.l1 + p.D1 + p.m2 * p.h2 * p.l2 - p.D2
     md = p.m2 * d
-    J = md * d + (p.A2 * sin * sin - 2 * p.D2 * sin * cos + p.B2 * cos * cos)
-    J3 = p.h2 * md + (p.A2 * sin - p.D2 * cos)
-    J4 = p.l2 * md + (p.B2 * cos - p.D2 * sin)  # (1.3)
+    own3, own4 = p.A2 * sin - p.D2 * cos, p.B2 * cos - p.D2 * sin
+    J = md * d + (sin * own3 + cos * own4)
+    J3, J4 = p.h2 * md + own3, p.l2 * md + own4  # (1.3)
+
+    leading = mu * J2
 
     turn = p.m2 * p.h2 * sin + cos * (e + trail * (p.m1 * p.l1 + e))  # m2 d + l c1/c
     if model == "refined":
@@ -65,10 +78,10 @@ def letters(p: SimpleNamespace, sin: Any, cos: Any, trail: Any, model: Model) ->
     return SimpleNamespace(
         p=p, d=d, mu=mu, c=p.c, g=p.g, delta=p.delta, sin=sin, cos=cos, C1=C1, C2=C2, h=h, J1=J1, S=S, U=U,
         M12=J3 + mu * J12,
-        M22=J + mu * (2 * J4 + mu * J2),
+        M22=J + mu * (2 * J4 + leading),
         Q=J12 + trail * (p.c * h),
         T=C2 + trail * (C1 + C2),
-        N=J4 + trail * (p.c * turn) + mu * J2,
+        N=J4 + c2 * turn + leading,
         W=turn + C2 * sin,
         missing=None if model == "refined" else h * l * mu,
     )  # fmt: skip

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.letters import MODELS as MODELS
 from bikestab.letters import Model as Model
-from bikestab.letters import determinant, letters_of
+from bikestab.letters import determinant, letters_of, unordered_letters_of
 from bikestab.rounding import ENTRY
 from bikestab.twofold import Twofold
 
@@ -84,11 +84,11 @@ def exact_table(
     shape, parts = _shape_and_parts(bicycle, lam, sigma)
     table = np.zeros((3, 5, 4, *shape))
     for some, tilt, trail in parts:
-        letters = letters_of(bicycle, tilt, trail, model)
-        entries = entries_of(letters)
+        letters = unordered_letters_of(bicycle, tilt, trail, model)
+        entries = {place: entry.ordered() for place, entry in entries_of(letters).items()}
         poor = abs(entries[4, 0].value) < _POOR * entries[4, 0].size
         if np.any(poor):
-            entries[4, 0] = _chosen(poor, determinant(letters), entries[4, 0])
+            entries[4, 0] = _chosen(poor, determinant(letters).ordered(), entries[4, 0])
         for (k, j), entry in entries.items():
             table[0, k, j, some], table[1, k, j, some] = entry.value, entry.rest
             table[2, k, j, some] = ENTRY * entry.size
@@ -174,6 +174,7 @@ def entries_of(n: SimpleNamespace) -> dict[tuple[int, int], Any]:
     """
     c, cos = n.c, n.cos
     along, weight = c * cos, c * n.g
+    down = weight * cos
     turning = n.C1 * n.S + n.C2 * n.U  # in the V² term of p0
     if n.missing is not None:
         turning = turning - n.missing
@@ -182,12 +183,12 @@ def entries_of(n: SimpleNamespace) -> dict[tuple[int, int], Any]:
         (4, 0): c * c * (n.J1 * n.M22 - n.M12 * n.M12),
         (3, 1): along * (n.J1 * n.N - n.M12 * n.Q),
         (3, 0): c * c * n.delta * n.J1,
-        (2, 2): along * (n.J1 * n.W - (n.h + spins) * n.M12 + cos * n.T * (n.Q + c * n.T)),
+        (2, 2): along * (n.J1 * n.W - (n.h + spins) * n.M12 + cos * (n.T * (n.Q + c * n.T))),
         (2, 0): weight * c * (n.S * (2 * n.M12 - n.J1 * n.sin) - n.h * n.M22),
         (1, 3): along * cos * ((n.h + spins) * n.T),
-        (1, 1): weight * cos * (n.Q * n.S - n.h * n.N),
+        (1, 1): down * (n.Q * n.S - n.h * n.N),
         (1, 0): weight * c * n.delta * (-n.h),
-        (0, 2): weight * cos * turning,
+        (0, 2): down * turning,
         (0, 0): weight * weight * (-n.S * n.U),
     }
 

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bikestab.twofold import Twofold, two_product
+from bikestab.twofold import Twofold
+from bikestab.unordered import Unordered
 
 _BITS = 240  # of the fixed point in which they are tabulated
 
@@ -26,21 +27,21 @@ def sine_cosine(angle: ArrayLike) -> tuple[Twofold, Twofold]:
     values = nodes[:, :, at]
     if isinstance(angle, float):
         number, values = float(number), values.tolist()
-    small = angle - number / 16  # exact
-    y = Twofold(*two_product(small, small))
+    small = Unordered(angle - number / 16)  # exact
+    y = small * small
     series = []
     for coefficients, tail in zip(constants, tails, strict=True):
         far: Any = tail[-1]
         for a in tail[-2::-1]:  # below 2^−50 of the sum
             far = far * y.value + a
-        near = Twofold(far)
+        near = Unordered(far)
         for b in coefficients[::-1]:
-            near = near * y + b
+            near = near * y + Unordered(b.value, b.rest)
         series.append(near)
     sine, cosine = series[0] * y * small + small, series[1] * y + 1.0
-    S, C = (Twofold(*pair) for pair in values)
-    S = S * (1.0 - 2.0 * (number < 0))
-    return S * cosine + C * sine, C * cosine - S * sine
+    sign = 1.0 - 2.0 * (number < 0)
+    S, C = Unordered(sign * values[0][0], sign * values[0][1]), Unordered(*values[1])
+    return (S * cosine + C * sine).ordered(), (C * cosine - S * sine).ordered()
 
 
 def plain_sine_cosine(angle: ArrayLike) -> tuple[Any, Any]:

@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.certain import ascending
 from bikestab.critical import Critical, critical
 from bikestab.entries import Cells, cells_of
 from bikestab.kinds import CAPSIZE as CAPSIZE
@@ -29,7 +28,6 @@ from bikestab.model import ExactTable, Floats
 from bikestab.rounding import VALUE
 
 _CAPSIZE_SPEED, _WEAVE_SPEEDS, _ORDER, _SIGNS, _WIDTH = range(1, 6)
-_EMPTY = (np.nan, np.nan, NONE, NONE, np.nan, np.nan, 0)  # what stands in Intervals behind a cell's last one
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +90,10 @@ def intervals_of(table: Floats | ExactTable) -> Intervals:
 
 
 class _Ends(NamedTuple):
-    """Critical speeds V + rest (root, cell) within ``radius``, and what they are."""
+    """What cuts the speed axis, ascending: V + rest (end, cell) within ``radius``, and what it is.
+
+    inf behind a cell's last.
+    """
 
     V: Floats
     rest: Floats
@@ -103,83 +104,94 @@ class _Ends(NamedTuple):
 def intervals_between(table: Floats | ExactTable, critical: Critical) -> Intervals:
     """``intervals_of`` a table (5, 4, cell) whose critical speeds are known."""
     n = table.shape[-1]
-    ends = _ends(critical)
+    ends = _ends(critical, n)
     weave, capsize = critical.zeros["hurwitz3"], critical.zeros["p0"]
     marginal = np.where(~capsize.sure, _CAPSIZE_SPEED, np.where(~weave.sure, _WEAVE_SPEEDS, 0))
     V, rest, radius, kind = ends
-    exists = kind != NONE
+    error = np.fmax(np.abs(rest) + radius, 0.0) * (1 + 2.0**-50)
 
-    # stretch i lies between ends i and i + 1 of: rest, the critical speeds, infinity
-    zeros, infinity = np.zeros((1, n)), np.full((1, n), np.inf)
-    error = np.where(exists, np.abs(rest) + radius, 0.0) * (1 + 2.0**-50)
-    lower = np.concatenate([np.full((1, n), REST, np.uint8), kind])
-    upper = np.concatenate([np.where(exists, kind, UNBOUNDED), np.full((1, n), UNBOUNDED)]).astype(np.uint8)
-    lower_V, upper_V = np.concatenate([zeros, V]), np.concatenate([V, infinity])
-
-    # p0 and hurwitz3 by counting their sign changes, which is right in however narrow a stretch;
-    # the others keep their sign throughout a stable stretch, so any speed inside it will do
-    good = lower_V < np.inf
+    # stretch i lies between ends i and i + 1. The signs of p0 and hurwitz3 come from counting their
+    # changes, which is right in however narrow a stretch; the others keep their sign throughout a stable
+    # stretch, so any speed inside it will do
+    good = V[:-1] < np.inf
     for name, which in (("p0", CAPSIZE), ("hurwitz3", WEAVE)):
         positive, sign = critical.sign[name] > 0, critical.sign[name] != 0
         good[0] &= positive
-        for i, crossed in enumerate(kind == which, 1):
-            positive = (positive ^ crossed) & sign
+        for i in range(1, len(good)):
+            positive = (positive ^ (kind[i] == which)) & sign
             good[i] &= positive
-    column, stretch = _cells_of(good)
-    low, high = lower_V[stretch, column], upper_V[stretch, column]
-    inside = np.where(np.isfinite(high), low + 0.5 * (high - low), 2 * low + 1)
+    column, stretch = np.divmod(np.flatnonzero(good.T), len(good))
+    at = stretch * n + column  # in the arrays of ends as one row
+    low, high = V.take(at), V.take(at + n)
+    inside = np.where(high < np.inf, low + 0.5 * (high - low), 2 * low + 1)
     stable, clear = _others_positive(cells_of(table), column, inside)
-    good[stretch, column] = stable
     marginal[column[~clear]] = _SIGNS
     marginal[_out_of_order(ends)] = _ORDER
-    marginal[(good & (lower_V == upper_V)).any(axis=0)] = _WIDTH
+    marginal[column[stable & (low == high)]] = _WIDTH
 
-    column, stretch = _cells_of(good)
+    column, at = column[stable], at[stable]
     count = np.bincount(column, minlength=n)
-    nth = np.arange(len(column)) - (np.cumsum(count) - count)[column]  # in its column
     most = max(int(count.max(initial=0)), 1)
+    nth = np.arange(len(column)) - (np.cumsum(count) - count)[column] if most > 1 else 0  # in its column
+    place = column * most + nth
 
-    def pick(values: NDArray, empty: float) -> NDArray:
-        out = np.full((n, most), empty, values.dtype)
-        out[column, nth] = values[stretch, column]
-        return out
+    def pick(values: NDArray, at: NDArray[np.intp], empty: float) -> NDArray:
+        out = np.full(n * most, empty, values.dtype)
+        out[place] = values.take(at)
+        return out.reshape(n, most)
 
-    values = (
-        lower_V, upper_V, lower, upper, np.concatenate([zeros, error]), np.concatenate([error, zeros])
-    )  # fmt: skip
     first = np.zeros((n, most), np.uint8)
     first[:, 0] = marginal
-    V1, V2, below, above, V1_error, V2_error = map(pick, values, _EMPTY)
+    (V1, V2), (below, above), (V1_error, V2_error) = (
+        (pick(values, at, empty), pick(values, at + n, empty))
+        for values, empty in ((V, np.nan), (kind, NONE), (error, np.nan))
+    )
     return Intervals(V1, V2, below, above, V1_error, V2_error, first)
 
 
-def _cells_of(good: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Columns and rows (of few) where it holds, column by column."""
-    some = np.flatnonzero(np.logical_or.reduce(good, axis=0))
-    column, row = np.nonzero(good[:, some].T)
-    return some[column], row
+def _ends(critical: Critical, n: int) -> _Ends:
+    """Rest, the zeros of p0 and hurwitz3, and infinity, in one ascending order."""
+    rows: list[_Row] = []
+    for name, kind in (("hurwitz3", WEAVE), ("p0", CAPSIZE)):
+        for V, rest, radius in zip(*critical.zeros[name][:3], strict=True):
+            kinds = np.where(np.inf > V, np.uint8(kind), np.uint8(UNBOUNDED))
+            rows.append((np.fmin(V, np.inf), rest, radius, kinds))
+            for i in range(len(rows) - 1, 0, -1):
+                if kind == CAPSIZE:  # those of one condition are in order
+                    rows[i - 1 : i + 1] = _in_order(rows[i - 1], rows[i])
+    zero = np.zeros(n)
+    rows = [
+        (zero, zero, zero, np.full(n, REST, np.uint8)),
+        *rows,
+        (zero + np.inf, zero, zero, np.full(n, UNBOUNDED, np.uint8)),
+    ]
+    return _Ends(*(np.array(values) for values in zip(*rows, strict=True)))
 
 
-def _ends(critical: Critical) -> _Ends:
-    """The zeros of p0 and hurwitz3 in one ascending order; inf behind a cell's last."""
-    weave, capsize = critical.zeros["hurwitz3"], critical.zeros["p0"]
-    V, rest, radius = (np.concatenate([a, b]) for a, b in zip(weave[:3], capsize[:3], strict=True))
-    kind = np.repeat(np.array([WEAVE, CAPSIZE], np.uint8), [len(weave.V), len(capsize.V)])
-    exists = np.isfinite(V)
-    kind = np.where(exists, kind[:, np.newaxis], NONE).astype(np.uint8)
-    V, rest, radius = (np.where(exists, a, b) for a, b in ((V, np.inf), (rest, 0.0), (radius, 0.0)))
-    ascending(V, rest, radius, kind)
-    return _Ends(V, rest, radius, kind)
+_Row = tuple[Floats, Floats, Floats, NDArray[np.uint8]]
+
+
+def _in_order(a: _Row, b: _Row) -> tuple[_Row, _Row]:
+    """Two rows of V, rest, radius and kind, by V + rest in each cell."""
+    wrong = (a[0] > b[0]) | ((a[0] == b[0]) & (a[1] > b[1]))
+    if not wrong.any():
+        return a, b
+
+    def chosen(x: _Row, y: _Row) -> _Row:
+        V, rest, radius = (np.where(wrong, x[i], y[i]) for i in range(3))
+        return V, rest, radius, np.where(wrong, x[3], y[3])
+
+    return chosen(b, a), chosen(a, b)
 
 
 def _out_of_order(ends: _Ends) -> NDArray[np.bool_]:
     """The cells in which two ends of different kinds may be the other way round."""
     V, rest, radius, kind = ends
     close = np.zeros(V.shape[1:], bool)
-    for i, k in combinations(range(len(V)), 2):
+    for i, k in combinations(range(1, len(V) - 1), 2):
         with np.errstate(invalid="ignore"):
             gap = (V[k] - V[i]) + (rest[k] - rest[i])
-        close |= (kind[k] != NONE) & (kind[k] != kind[i]) & (gap <= radius[k] + radius[i])
+        close |= (kind[k] != kind[i]) & (gap <= radius[k] + radius[i])
     return close
 
 

@@ -24,6 +24,15 @@ def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
     return s, rest
 
 
+def two_difference(a: Any, b: Any) -> tuple[Any, Any]:
+    """A − b, as ``two_sum``."""
+    s = a - b
+    part = s - a
+    rest = a - (s - part)
+    rest -= b + part
+    return s, rest
+
+
 def two_product(a: Any, b: Any) -> tuple[Any, Any]:
     """A b as the nearest double and the rest, which is exact."""
     p = a * b
@@ -70,10 +79,7 @@ def pair_sum(a: Pair, b: Pair) -> Pair:
 
 def pair_difference(a: Pair, b: Pair) -> Pair:
     """A − b, as ``pair_sum``."""
-    s = a[0] - b[0]
-    part = s - a[0]
-    r = a[0] - (s - part)
-    r -= b[0] + part
+    s, r = two_difference(a[0], b[0])
     r += a[1] - b[1]
     return s, r
 

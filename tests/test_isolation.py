@@ -6,7 +6,7 @@ import pytest
 from bikestab.certain import signs, zeros_of
 from bikestab.isolation import _sign_changes, _whole, brackets, isolated
 from bikestab.rounding import COEFFICIENT, CUT
-from bikestab.speeds import CAPSIZE, WEAVE, _Ends, _out_of_order
+from bikestab.speeds import CAPSIZE, REST, UNBOUNDED, WEAVE, _Ends, _out_of_order
 from bikestab.twofold import Double, Twofold
 
 
@@ -50,7 +50,7 @@ def test_a_sign_is_certain_from_twice_the_error():
 
 
 def test_ends_that_are_no_neighbours_may_be_out_of_order():
-    V = np.array([[1.0, 1.0], [1.1, 1.1], [1.2, 1.2]])
-    radius = np.array([[0.3, 0.1], [0, 0], [0, 0]])
-    kind = np.array([[WEAVE] * 2, [WEAVE] * 2, [CAPSIZE] * 2], np.uint8)
-    assert _out_of_order(_Ends(V, 0 * V, radius, kind)).tolist() == [True, False]
+    V = np.array([[0.0, 0.0], [1.0, 1.0], [1.1, 1.1], [1.2, 1.2], [np.inf, np.inf]])
+    radius = np.array([[0, 0], [0.3, 0.1], [0, 0], [0, 0], [0, 0]])
+    kind = np.array([[REST] * 2, [WEAVE] * 2, [WEAVE] * 2, [CAPSIZE] * 2, [UNBOUNDED] * 2], np.uint8)
+    assert _out_of_order(_Ends(V, np.zeros_like(V), radius, kind)).tolist() == [True, False]
