@@ -4,26 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from numpy.typing import ArrayLike
 
-from bikestab.bicycle import PAPER, Bicycle
-from bikestab.errors import InputError, nearest
+from bikestab.bicycle import Bicycle
 from bikestab.machines import Machines
 from bikestab.model import ExactTable, Floats, Model, characteristic_table, exact_table
-from bikestab.variants import FRONT, check_values, fixed_by, front_of, own_value, varied
-
-_SYMBOLS = {"lam": "λ", "sigma": "σ", "delta": "δ"}
-
-
-class Parameter(NamedTuple):
-    """How a parameter is called: as a key, in formulas, in words, and its unit."""
-
-    name: str
-    symbol: str
-    meaning: str
-    unit: str
+from bikestab.variants import Parameter, check_names, check_values, own_value, parameter_of, varied
 
 
 @dataclass(frozen=True)
@@ -47,33 +35,17 @@ class Family:
     y: str = "sigma"
 
     def __post_init__(self) -> None:
-        for axis, name in (("x", self.x), ("y", self.y)):
-            if name not in self._meanings:
-                raise InputError(
-                    f"the bicycle {self.bicycle.name!r} has no parameter {name!r}",
-                    key=(axis,), hint=nearest(name, self._meanings),
-                )  # fmt: skip
-        kinds = [self._kind(name) for name in (self.x, self.y)]
-        if kinds[0] & kinds[1]:
-            raise InputError(
-                f"{self.x} and {self.y} are one parameter", key=("y",), hint="name two that differ"
-            )
-        given = fixed_by(self.bicycle, (self.x, self.y))
-        for name, own, what in (("lam", self.bicycle.lam, "tilt"), ("sigma", self.bicycle.sigma, "trail")):
-            if own is None and what not in given:
-                raise InputError(
-                    f"the bicycle {self.bicycle.name!r} has no {name} of its own",
-                    key=(name,), hint=f"give it one, or name {name} as x or y",
-                )  # fmt: skip
+        check_names(self.bicycle, {"x": self.x, "y": self.y})
 
     @property
     def parameters(self) -> tuple[Parameter, Parameter]:
         """What x and y are called."""
-        x, y = (
-            Parameter(name, _SYMBOLS.get(name, name), *self._meanings[name][:-1].rsplit(" [", 1))
-            for name in (self.x, self.y)
-        )
-        return x, y
+        return parameter_of(self.bicycle, self.x), parameter_of(self.bicycle, self.y)
+
+    @property
+    def of_front(self) -> bool:
+        """Whether the two are tilt and σ."""
+        return (self.x, self.y) == ("lam", "sigma")
 
     @property
     def own(self) -> tuple[float | None, float | None]:
@@ -110,16 +82,6 @@ class Family:
     def kept(self) -> dict[str, float | None]:
         """The bicycle's numbers from which the family can be made again: those of two parts, or of bodies."""
         bicycle = self.bicycle
-        if bicycle.bodies is None or (self.x, self.y) == ("lam", "sigma"):
+        if bicycle.bodies is None or self.of_front:
             return bicycle.numbers()
         return {"g": bicycle.g, "delta": bicycle.delta, **bicycle.given}
-
-    @property
-    def _meanings(self) -> dict[str, str]:
-        """What may vary: meaning and unit by name."""
-        return {**PAPER, **self.bicycle.notation, **FRONT}
-
-    def _kind(self, name: str) -> set[str]:
-        """The parameters of the equations that a name alone fixes."""
-        front = front_of(self.bicycle, name)
-        return {front} if front else {"R1", "R2"} if name == "R" else {name}

@@ -71,12 +71,17 @@ def verdict_record(found: Intervals, *cell: int) -> Verdict:
 
 def design_record(lam: Any, sigma: Any, machine: Bicycle | Machines) -> Design:
     """A design of a machine by the words of tables and JSON, of floats; or several, of arrays."""
-    offset = offset_of(lam, sigma, machine.c, machine.R2)
+    return design_of_numbers(lam, sigma, machine.c, machine.R2)
+
+
+def design_of_numbers(lam: Any, sigma: Any, wheelbase: Any, radius: Any) -> Design:
+    """The same from its wheelbase [m] and front radius [m]."""
+    offset = offset_of(lam, sigma, wheelbase, radius)
     return {
         "lam": lam,
         "sigma": sigma,
         "head_angle_deg": 90 - lam * (180 / math.pi),
-        "trail": sigma * machine.c,
+        "trail": sigma * wheelbase,
         "offset": float(offset) if isinstance(lam, float) else offset,
     }
 

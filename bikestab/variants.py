@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from bikestab.bicycle import Bicycle
-from bikestab.errors import InputError
+from bikestab.bicycle import PAPER, Bicycle
+from bikestab.errors import InputError, nearest
 from bikestab.geometry import offset_of, tilt_from, trail_from
 from bikestab.limits import check_tilt, check_trail
 from bikestab.machines import Machines
@@ -17,6 +17,21 @@ TILT = {"lam": "steering-axis tilt [rad]", "head_angle": "head angle, 90° − t
 TRAIL = {"sigma": "trail divided by the wheelbase [1]", "trail": "trail along the ground [m]"}
 OFFSET = {"offset": "fork offset, of the front axle ahead of the steering axis [m]"}
 FRONT = {**TILT, **TRAIL, **OFFSET}
+_SYMBOLS = {"lam": "λ", "sigma": "σ", "delta": "δ"}
+
+
+class Parameter(NamedTuple):
+    """How a parameter is called: as a key, in formulas, in words, and its unit."""
+
+    name: str
+    symbol: str
+    meaning: str
+    unit: str
+
+
+def parameter_of(bicycle: Bicycle, name: str) -> Parameter:
+    """What a parameter of the bicycle is called."""
+    return Parameter(name, _SYMBOLS.get(name, name), *_meanings(bicycle)[name][:-1].rsplit(" [", 1))
 
 
 def varied(bicycle: Bicycle, values: Mapping[str, Any]) -> tuple[Bicycle | Machines, Any, Any]:
@@ -66,6 +81,33 @@ def fixed_by(bicycle: Bicycle, names: Iterable[str]) -> dict[str, str]:
     return found
 
 
+def check_names(bicycle: Bicycle, names: Mapping[str, str]) -> None:
+    """Raise InputError, with one's key, unless these are parameters of the bicycle that can vary together.
+
+    ``names`` has them by keys. They must leave neither tilt nor trail open.
+    """
+    known = _meanings(bicycle)
+    seen: dict[str, str] = {}
+    for key, name in names.items():
+        if name not in known:
+            problem = f"the bicycle {bicycle.name!r} has no parameter {name!r}"
+            raise InputError(problem, key=(key,), hint=nearest(name, known))
+        front = front_of(bicycle, name)
+        for one in (front,) if front else ("R1", "R2") if name == "R" else (name,):
+            if one in seen:
+                problem = f"{seen[one]} and {name} are one parameter"
+                raise InputError(problem, key=(key,), hint="name two that differ")
+            seen[one] = name
+    if {"tilt", "trail", "offset"} <= seen.keys():
+        problem = f"{seen['tilt']} and {seen['trail']} fix the offset"
+        raise InputError(problem, key=([*names][-1],), hint="leave one of the three out")
+    given = fixed_by(bicycle, names.values())
+    for name, own, what in (("lam", bicycle.lam, "tilt"), ("sigma", bicycle.sigma, "trail")):
+        if own is None and what not in given:
+            problem = f"the bicycle {bicycle.name!r} has no {name} of its own"
+            raise InputError(problem, key=(name,), hint=f"give it one, or let {name} vary too")
+
+
 def check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
     """Raise InputError, with the parameter's name as key, for values that no machine can have."""
     fronts = {front_of(bicycle, name): name for name in values}
@@ -98,6 +140,11 @@ def own_value(bicycle: Bicycle, name: str) -> float | None:
     known = {**bicycle.numbers(), **bicycle.given, "lam": lam, "sigma": sigma, **derived}
     own = known.get(name, 0.0)
     return None if own is None else float(own)
+
+
+def _meanings(bicycle: Bicycle) -> dict[str, str]:
+    """What may vary: meaning and unit by name."""
+    return {**PAPER, **bicycle.notation, **FRONT}
 
 
 def _sigma(bicycle: Bicycle, numbers: Mapping[str, Any], machine: Bicycle | Machines) -> tuple[Any, bool]:

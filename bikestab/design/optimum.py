@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Literal
+from typing import Any, Literal, NotRequired
 
 import numpy as np
 
 from bikestab.design.criteria import WORSE, Wanted, counted, judged
 from bikestab.design.search import Found
+from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.records import Design, design_record
 from bikestab.speeds import KINDS
@@ -30,7 +31,8 @@ class JudgedDesign(Design):
 
     V2 is None where unbounded. V1, V2 and their kinds are None, and width 0, where nothing is stable;
     growth_rate is None where an eigenvalue is infinite. ``width`` ends at the cap. ``at`` says where an
-    optimum lies: ``interior``, or the limit, edge or jump that it lies at.
+    optimum lies: ``interior``, or the limit, edge or jump that it lies at. ``over`` has the parameters that
+    were searched, where they are others than tilt and trail.
     """
 
     V1: float | None
@@ -41,6 +43,7 @@ class JudgedDesign(Design):
     growth_rate: float | None
     V: float
     at: str
+    over: NotRequired[dict[str, float]]
 
 
 def own_design(wanted: Wanted) -> JudgedDesign | None:
@@ -69,7 +72,9 @@ def judged_design(wanted: Wanted, x: Floats, pick: Pick = "widest", at: str = ""
         merit = np.where(hit, 1.0, 0.0)
     k = int(np.argmax(merit))
     some = bool(found.intervals.upper[0, k])
-    lam, sigma, machine = wanted.family.geometry(*x)
+    family = wanted.family
+    lam, sigma, machine = family.geometry(*x)
+    over = {} if family.of_front else {"over": {family.x: float(x[0]), family.y: float(x[1])}}
     return {
         **design_record(float(lam), float(sigma), machine),
         "V1": float(V1[k]) if some else None,
@@ -80,7 +85,14 @@ def judged_design(wanted: Wanted, x: Floats, pick: Pick = "widest", at: str = ""
         "growth_rate": finite(rate[0]),
         "V": float(V[0]),
         "at": at,
+        **over,  # type: ignore[typeddict-item]  # which is one of its keys
     }
+
+
+def place_in_plane(family: Family, design: JudgedDesign) -> tuple[float, float]:
+    """The values of the family's two parameters that a design has."""
+    values: dict[str, Any] = {**design, **design.get("over", {})}
+    return values[family.x], values[family.y]
 
 
 def place_of(wanted: Wanted, criterion: Criterion, best: Found) -> str:

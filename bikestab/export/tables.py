@@ -134,11 +134,16 @@ def of_machines(
     return {"bicycle": _TEXT, "set": _TEXT, **columns}, blocks()
 
 
-def front_blocks(front: Sequence[JudgedDesign]) -> Iterator[Block]:
-    """The rows of FRONT: one per design, the widest first; a number that is None is missing."""
+def front_blocks(front: Sequence[JudgedDesign], over: Sequence[str] = ()) -> Iterator[Block]:
+    """The rows of FRONT: one per design, the widest first; a number that is None is missing.
+
+    Of others than tilt and trail they begin with what was searched ``over``.
+    """
+    rows: list[dict[str, Any]] = [{**design, **design.get("over", {})} for design in front]
+    kinds = dict.fromkeys(over, "float64") | {name: kind for name, (kind, _) in FRONT.items()}
     yield {
-        name: np.array([design[name] for design in front], float if kind == "float64" else object)  # type: ignore[literal-required]
-        for name, (kind, _) in FRONT.items()
+        name: np.array([row[name] for row in rows], float if kind == "float64" else object)
+        for name, kind in kinds.items()
     }
 
 

@@ -15,8 +15,10 @@ from matplotlib.patches import Patch
 
 from bikestab.design.best import Best
 from bikestab.design.criteria import Wanted, counted
+from bikestab.design.optimum import place_in_plane
+from bikestab.family import Family
 from bikestab.model import Floats
-from bikestab.plot.axes import HALO, label_axes, remarks
+from bikestab.plot.axes import HALO, label_family, remarks
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import draw_on_white, entry, legend_below, straight_fork
 from bikestab.plot.settings import own_settings
@@ -66,10 +68,10 @@ def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Fi
     ax.set_facecolor("white")
     handles = _widths(figure, ax, wanted, x, y)
     handles += _curves(ax, curves)
-    handles += straight_fork(ax, wanted.family.bicycle)
-    handles += _optima(ax, best)
+    handles += straight_fork(ax, wanted.family.bicycle) if wanted.family.of_front else []
+    handles += _optima(ax, wanted.family, best)
     bicycle = wanted.family.bicycle
-    label_axes(ax, "lam", "sigma", bicycle.c)
+    label_family(ax, wanted.family.x, wanted.family.y, wanted.family)
     legend_below(figure, handles, handlelength=2.8, fontsize=9)
     what = f"widest interval of stable speeds up to {wanted.V_max:g} m/s"
     set_title(ax, f"{short(bicycle.name)}{remarks(bicycle, wanted.family.model)}: {what}")
@@ -186,22 +188,22 @@ def _curves(ax: Axes, curves: Sequence[Curve]) -> list[Any]:
     return [entry(name, lw=1.9, color=color, ls=dashes) for name, (color, dashes) in styles.items()]
 
 
-def _optima(ax: Axes, best: Best) -> list[Any]:
+def _optima(ax: Axes, family: Family, best: Best) -> list[Any]:
     handles: list[Any] = []
     frame: dict[str, Any] = {"ls": "", "mec": "black", "clip_on": False, "zorder": 5}
     if len(best.pareto) > 2:
-        x, y = ([design[key] for design in best.pareto] for key in ("lam", "sigma"))
+        x, y = zip(*(place_in_plane(family, design) for design in best.pareto), strict=True)
         handles += ax.plot(x, y, marker="o", ms=4.5, mfc="white", mew=0.8, label="width-decay front", **frame)
     for name, (marker, label, size) in OPTIMA.items():
         design = getattr(best, name)
         if design and design["at"] != "outside the box":
             handles += ax.plot(
-                design["lam"], design["sigma"], marker=marker, ms=size, mew=1.4,
+                *place_in_plane(family, design), marker=marker, ms=size, mew=1.4,
                 mfc="#e8308a" if name == "own" else "white", label=label, **frame,
             )  # fmt: skip
     if best.closest:
         closest = best.closest
         handles += ax.plot(
-            closest["lam"], closest["sigma"], marker="X", ms=9, mfc="white", mew=1.4, label="closest", **frame
+            *place_in_plane(family, closest), marker="X", ms=9, mfc="white", mew=1.4, label="closest", **frame
         )
     return handles

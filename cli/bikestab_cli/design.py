@@ -17,6 +17,7 @@ from bikestab_cli.options import (
     Ends,
     check_files,
     json_option,
+    over_ends_option,
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
@@ -74,8 +75,11 @@ if TYPE_CHECKING:
     show_default=True,
     help="Intervals count up to here [m/s]; those that start above do not.",
 )
+@over_ends_option
 @several_machines
-@click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw the (λ, σ) plane as PNG, PDF or SVG.")
+@click.option(
+    "-o", "--output", type=FILE, metavar="FILE", help="Draw the plane of designs as PNG, PDF or SVG."
+)
 @click.option(
     "--csv", "csv_file", type=FILE, metavar="FILE", help="Write the Pareto front at full precision."
 )
@@ -89,6 +93,7 @@ def command(
     judged: Ends | None,
     stable: Ends | None,
     V_max: float,
+    over: dict[str, Ends],
     bicycle_name: tuple[str, ...],
     changes: Values,
     model: Model,
@@ -97,10 +102,13 @@ def command(
     csv_file: str | None,
     as_json: bool,
 ) -> None:
-    """Find the best tilt and trail.
+    """Find the best tilt and trail, or other parameters.
 
     The widest interval of stable speeds, the lowest V1, the fastest decay (the lowest growth rate), and the
     Pareto front: designs of which none has both a wider interval and a faster decay than another.
+
+    --over takes any two parameters instead: those of the bicycle's notation, a rider's, and lam, head_angle,
+    sigma, trail, offset, delta; the rest is as the bicycle has it.
 
     Several --bicycle and several values of --set give one table, and one picture of their fronts, a curve
     each.
@@ -117,26 +125,30 @@ def command(
       bikestab design --sigma 0.08 --V 4:6 --json
       bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5
       bikestab design --bicycle meijaard2007 --set mB=60,110 --V 5 -o fronts.png
+      bikestab design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm -o loads.png
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
     from bikestab_cli.design_words import told, told_all
 
     from bikestab.design.best import best_designs
     from bikestab.design.criteria import Wanted
-    from bikestab.export.tables import FRONT, front_blocks, of_machines, save_csv
+    from bikestab.export.tables import FRONT, columns, front_blocks, of_machines, save_csv
     from bikestab.family import Family
     from bikestab.files import to_stdout
 
+    x, y = _axes(over)
     if head_angle:
         lam = _tilts(head_angle)
     machines = machines_chosen(bicycle_name, delta, changes)
-    with told_as_options(judged="--V", V_max="--V-max"):
+    ends = (over[x], over[y]) if over else (lam, sigma)
+    named = dict.fromkeys(over, "--over") | {"x": "--over", "y": "--over"} if over else {}
+    with told_as_options(judged="--V", V_max="--V-max", **named):
         asked = [
-            Wanted(Family(each.bicycle, model), lam, sigma, trail, V_max, judged, stable, offset)
+            Wanted(Family(each.bicycle, model, x, y), *ends, trail, V_max, judged, stable, offset)
             for each in machines
         ]
     if output:
-        _check_picture(output, lam, sigma)
+        _check_picture(output, *ends)
     check_files(csv_file, output)
     found = [(machine, wanted, best_designs(wanted)) for machine, wanted in zip(machines, asked, strict=True)]
     (machine, wanted, best), *others = found
@@ -145,20 +157,41 @@ def command(
         click.echo(text, err=any(to_stdout(name) for name in (csv_file, output) if name))
     files = {}
     if csv_file:
-        blocks = [(each.bicycle.name, each.changes, front_blocks(own.pareto)) for each, _, own in found]
-        save_csv(*of_machines(FRONT, blocks), csv_file)
+        blocks = [
+            (each.bicycle.name, each.changes, front_blocks(own.pareto, [*over])) for each, _, own in found
+        ]
+        save_csv(*of_machines(columns(FRONT, asked[0].family), blocks), csv_file)
         files["csv"] = csv_file
     if output:
         _draw(found, output)
         files["picture"] = output
     if as_json:
         searched: dict[str, object] = {"lam": lam, "sigma": sigma, "trail": trail, "offset": offset}
+        if over:
+            searched = {**over}
         searched |= {"V_max": V_max, "judged": judged, "stable": stable}
         results = [[{"searched": searched, **own._asdict()}] for _, _, own in found]
         print_json(record_of(machines, model, results, files))
     else:
         for name in files.values():
             tell_file(name)
+
+
+def _axes(over: dict[str, Ends]) -> tuple[str, str]:
+    """The names of the two parameters that are searched over."""
+    context = click.get_current_context()
+    if not over:
+        return "lam", "sigma"
+    if len(over) != 2:
+        raise click.UsageError("--over is given twice, for two parameters", context)
+    others = ("lam", "sigma", "trail", "head_angle", "offset")
+    if any(context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT for name in others):
+        problem = (
+            "--over says all that is searched: leave out --lam, --sigma, --trail, --head-angle and --offset"
+        )
+        raise click.UsageError(problem, context)
+    x, y = over
+    return x, y
 
 
 def _draw(found: Sequence[tuple[Chosen, Wanted, Best]], output: str) -> None:

@@ -6,7 +6,9 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, letter_of, prose, table
+from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, letter_of, prose, table, within
+
+from bikestab.variants import parameter_of
 
 if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
@@ -54,13 +56,23 @@ def told_all(found: Sequence[tuple[Chosen, Wanted, Best]]) -> str:
 
 def _searched(wanted: Wanted, *, trail: bool) -> str:
     bicycle, (low, high) = wanted.family.bicycle, wanted.box
+    if not wanted.family.of_front:
+        ranges = (
+            f"{p.symbol} = {a:.6g} ... {b:.6g} {p.unit}".removesuffix(" 1")
+            for p, a, b in zip(wanted.family.parameters, low, high, strict=True)
+        )
+        return f"searched: {', '.join(ranges)}{_asked(wanted)}"
     return (
         f"searched: λ = {low[0]:.6g} ... {high[0]:.6g} rad, σ = {low[1]:.6g} ... {high[1]:.6g}"
         + (f" (trail {low[1] * bicycle.c:.4f} ... {high[1] * bicycle.c:.4f} m)" if trail else "")
         + (", offset {:g} ... {:g} m".format(*wanted.offset) if wanted.offset else "")
-        + (f", stable from {wanted.stable[0]:g} to {wanted.stable[1]:g} m/s" if wanted.stable else "")
-        + f"\ndecay: growth rate {_where_judged(wanted)}"
+        + _asked(wanted)
     )
+
+
+def _asked(wanted: Wanted) -> str:
+    stable = f", stable from {wanted.stable[0]:g} to {wanted.stable[1]:g} m/s" if wanted.stable else ""
+    return f"{stable}\ndecay: growth rate {_where_judged(wanted)}"
 
 
 def _optima(best: Best) -> dict[str, JudgedDesign]:
@@ -85,6 +97,12 @@ def _nothing(wanted: Wanted, closest: JudgedDesign) -> str:
     worst = "at worst" if wanted.stable else "at best"
     how = "" if rate is None else f", which {worst} grows at {rate:.4g} 1/s, at {closest['V']:.4g} m/s"
     loosen = "a smaller --stable, " if wanted.stable else "a higher --V-max, "
+    if "over" in closest:
+        values = ", ".join(f"{name} = {value:.6g}" for name, value in closest["over"].items())
+        return (
+            f"no design was found {asked}\nclosest: {values}{how}\n"
+            f"what may help: {loosen}larger ranges of --over, or --delta"
+        )
     return (
         f"no design was found {asked}\n"
         f"closest: λ = {closest['lam']:.6g}, σ = {closest['sigma']:.6g}{how}\n"
@@ -96,8 +114,11 @@ def _nothing(wanted: Wanted, closest: JudgedDesign) -> str:
 
 def _table(designs: Sequence[tuple[Wanted, str, JudgedDesign]], first: str) -> str:
     """The designs, and where those lie that are not inside the box."""
-    lam, sigma, offset = DESIGN_HEAD
-    head = [first, lam, sigma, f"width [m/s]{offset}", "V1 [m/s]", "V2 [m/s]", "growth [1/s]\nat [m/s]"]
+    named, offset = DESIGN_HEAD[:2], DESIGN_HEAD[2]
+    if over := list(designs[0][2].get("over", {})):
+        bicycle = designs[0][0].family.bicycle
+        named = [f"{name}\n[{parameter_of(bicycle, name).unit}]".removesuffix("\n[1]") for name in over]
+    head = [first, *named, f"width [m/s]{offset}", "V1 [m/s]", "V2 [m/s]", "growth [1/s]\nat [m/s]"]
     rows = []
     for wanted, name, d in designs:
         ends = [
@@ -107,7 +128,8 @@ def _table(designs: Sequence[tuple[Wanted, str, JudgedDesign]], first: str) -> s
         width = f"{d['width']:.5f}" + ("*" if _is_cut(wanted, d) else " ")
         rate = "inf" if d["growth_rate"] is None else f"{d['growth_rate']:z.6f}"
         columns = design_columns(d)
-        rows.append([name, *columns[:2], width + columns[2], *ends, f"{rate}\n{d['V']:.4f}"])
+        values = [within(value, 9) for value in d.get("over", {}).values()] or columns[:2]
+        rows.append([name, *values, width + columns[2], *ends, f"{rate}\n{d['V']:.4f}"])
     places = [f"{name}: {d['at']}" for _, name, d in designs if d["at"] not in ("", "interior")]
     return "\n".join([table(head, rows, fold=0), *places])
 

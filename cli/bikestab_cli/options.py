@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
-from bikestab_cli.parameters import deviations_given, values_given
+from bikestab_cli.parameters import MOST_VALUES, deviations_given, over_ends, over_values, values_given
 
 from bikestab.errors import InputError
 from bikestab.files import check_writable
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 Ends = tuple[float, float]
 DEFAULT_BICYCLE = "dikarev1981"
-MOST_VALUES = 1_000_000
 
 
 class Quantity(click.ParamType):
@@ -137,6 +136,16 @@ def equation_options(function: F) -> F:
 at_option = click.option(
     "--at", "machine", multiple=True, metavar="NAME=VALUE", callback=values_given,
     help="Which machine of a sweep, e.g. --at delta=1; once for each of its axes.",
+)  # fmt: skip
+
+over_option = click.option(
+    "--over", "over", multiple=True, metavar="NAME=START:STOP:NUM", callback=over_values,
+    help="Values of a parameter of the bicycle, e.g. --over mB=60:110:6 --over offset=0:80mm:5; one or two.",
+)  # fmt: skip
+
+over_ends_option = click.option(
+    "--over", "over", multiple=True, metavar="NAME=START:STOP", callback=over_ends,
+    help="Search over these two parameters instead, e.g. --over mB=60:110 --over offset=0:80mm.",
 )  # fmt: skip
 
 sd_option = click.option(

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import click
 
 from bikestab.errors import InputError, nearest
 from bikestab.units import quantity, units_in
+
+MOST_VALUES = 1_000_000
 
 
 def values_given(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> dict[str, float]:
@@ -32,6 +36,47 @@ def deviations_given(
                 f"{name}={value:g} is no standard deviation; allowed: above 0", param=option
             )
     return "file" in texts, given
+
+
+def over_values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> dict[str, list[float]]:
+    """The values of NAME=START:STOP:NUM, by the parameters' names."""
+    found: dict[str, list[float]] = {}
+    for name, start, stop, num in _over(option, texts, "START:STOP:NUM"):
+        if not num.isdecimal() or not 2 <= int(num) <= MOST_VALUES:
+            problem = f"{num!r} of {name} is not a number of values from 2 to {MOST_VALUES}"
+            raise click.BadParameter(problem, param=option)
+        steps = int(num) - 1
+        found[name] = [start + (stop - start) * i / steps for i in range(steps)] + [stop]
+    return found
+
+
+def over_ends(
+    _: click.Context, option: click.Parameter, texts: tuple[str, ...]
+) -> dict[str, tuple[float, float]]:
+    """The ends of NAME=START:STOP, by the parameters' names."""
+    return {name: (start, stop) for name, start, stop, _ in _over(option, texts, "START:STOP")}
+
+
+def _over(
+    option: click.Parameter, texts: tuple[str, ...], form: str
+) -> Iterator[tuple[str, float, float, str]]:
+    seen: set[str] = set()
+    for text in texts:
+        name, _, ends = text.partition("=")
+        parts, name = ends.split(":"), name.strip()
+        if len(parts) != form.count(":") + 1 or not name:
+            example = "mB=60:110:6" if form.endswith("NUM") else "mB=60:110"
+            raise click.BadParameter(f"{text!r} is not NAME={form}, e.g. {example}", param=option)
+        if name in seen:
+            raise click.BadParameter(f"{name} is given twice", param=option)
+        seen.add(name)
+        try:
+            start, stop = (parameter(name, part) for part in parts[:2])
+        except InputError as error:
+            raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
+        if not start < stop:
+            raise click.BadParameter(f"{text!r} does not end above its start", param=option)
+        yield name, start, stop, parts[2].strip() if len(parts) > 2 else ""
 
 
 def parameter(name: str, text: str) -> float:

@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_designs, is_single
-from bikestab_cli.options import FILE, check_files, json_option, sd_option, tell_once, told_as_options
+from bikestab_cli.options import (
+    FILE,
+    check_files,
+    json_option,
+    over_option,
+    sd_option,
+    tell_once,
+    told_as_options,
+)
 from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.parameters import MOST_VALUES
 from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
-from bikestab_cli.vrange_words import Found, told_all, told_one
+from bikestab_cli.vrange_words import Found, told_all, told_one, told_over
+
+from bikestab.errors import InputError
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -23,6 +35,7 @@ MOST_SPREADS = 100  # designs at once
 
 @click.command("vrange")
 @design_options("a range")
+@over_option
 @several_machines
 @sd_option
 @click.option(
@@ -32,6 +45,7 @@ MOST_SPREADS = 100  # designs at once
 @json_option
 def command(
     given: Given,
+    over: dict[str, list[float]],
     bicycle_name: tuple[str, ...],
     changes: Values,
     model: Model,
@@ -52,6 +66,9 @@ def command(
     value for exactly these inputs lies, and says where rounding leaves open how many intervals there are or
     how one ends: "marginal", with the "reason".
 
+    --over takes values of any one or two parameters: those of the bicycle's notation, a rider's, and lam,
+    head_angle, sigma, trail, offset, delta. What does not vary is as the bicycle has it.
+
     --sd tells what standard deviations of parameters leave of that: in how many of 20 000 machines drawn at
     random there is a stable speed, and where nine tenths of the ends lie ('bikestab sensitivity' says more).
 
@@ -71,10 +88,14 @@ def command(
       bikestab vrange --bicycle meijaard2007 --head-angle 68deg:74deg:7 --offset 45mm
       bikestab vrange --bicycle meijaard2007 --bicycle kooijman2011
       bikestab vrange --bicycle meijaard2007 --set mB=60,75,100
+      bikestab vrange --bicycle meijaard2007 --over mB=60:110:6 --over offset=0:80mm:5
       bikestab vrange --bicycle meijaard2007 --bicycle sharp1971 --trail 0:15cm:151 -o ends.png
     """
     check_files(output)
     machines = machines_chosen(bicycle_name, delta, changes)
+    if over:
+        _over(machines, over, model, as_json, given or any(deviations) or output)
+        return
     axis = _axis_drawn(given) if output else ""
     single = is_single(given) and len(machines) == 1
     found = [_found(machine, given, model, deviations, as_json or single) for machine in machines]
@@ -91,6 +112,35 @@ def command(
         tell_file(output)
     else:
         click.echo(told_one(found[0], model, single) if len(machines) == 1 else told_all(found, model))
+
+
+def _over(
+    machines: list[Chosen], over: dict[str, list[float]], model: Model, as_json: bool, others: object
+) -> None:
+    """Tell of every combination of the parameters' values."""
+    from bikestab.region.answers import stable_speeds_over
+
+    context = click.get_current_context()
+    if others:
+        problem = (
+            "--over says what varies: set the rest with --set, as --set lam=18deg, and leave out --sd and -o"
+        )
+        raise click.UsageError(problem, context)
+    if math.prod(len(values) for values in over.values()) > MOST_VALUES:
+        raise click.UsageError(f"--over gives more than {MOST_VALUES} designs", context)
+    points = []
+    for machine in machines:
+        try:
+            points.append(stable_speeds_over(machine.bicycle, over, model=model))
+        except InputError as error:
+            problem = ": ".join([str(error.key[0]), error.problem]) if error.key else error.problem
+            raise click.BadParameter(f"{problem}; {error.hint}", param_hint="--over") from None
+    if as_json:
+        results = [[{"over": point, **answer} for point, answer in each] for each in points]
+        print_json(record_of(machines, model, results))
+    else:
+        told = (told_over(machine, each, model) for machine, each in zip(machines, points, strict=True))
+        click.echo("\n\n".join(told))
 
 
 def _found(

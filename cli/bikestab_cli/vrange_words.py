@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, prose, table
@@ -54,6 +55,26 @@ def told_all(found: list[Found], model: Model) -> str:
         known = [(answer, in_one_line(each)) for answer, each in zip(answers, spreads, strict=False)]
         notes += [f"{machine.words} at {_design(answer)}: {text}" for answer, text in (*open_, *known)]
     return "\n".join([f"{model} model\n", table(["machine", *_HEAD], rows, fold=0), *map(prose, notes)])
+
+
+def told_over(machine: Chosen, points: Sequence[tuple[dict[str, float], Answer]], model: Model) -> str:
+    """The table of values of parameters: these, what else a frame is measured by, and the stable speeds."""
+    from bikestab.variants import parameter_of
+
+    named = [parameter_of(machine.bicycle, name) for name in points[0][0]]
+    rows, open_ = [], []
+    for point, answer in points:
+        values = [f"{value:.6g}" for value in point.values()]
+        for row in _rows([answer], _FEWER):
+            rows.append([*values, *row])
+            values = [""] * len(values)
+        if answer["marginal"]:
+            where = ", ".join(f"{name} = {value:.6g}" for name, value in point.items())
+            open_.append(f"marginal at {where}: {answer['reason']}")
+    head = [f"{p.name}\n[{p.unit}]" if p.unit != "1" else p.name for p in named]
+    changed = f" ({machine.changes})" if machine.set else ""
+    text = [heading(machine.bicycle, model) + changed + "\n", table([*head, *_HEAD], rows)]
+    return "\n".join([*text, *map(prose, open_)])
 
 
 def _design(answer: Answer) -> str:
