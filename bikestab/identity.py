@@ -15,19 +15,21 @@ Floats = NDArray[np.float64]
 
 def identity(
     model: str, machines: Floats, grid: list[Floats], fields: Iterable[str], sweep: Mapping[str, Floats],
-    ensemble: Mapping[str, Any] | None, named: Sequence[str] = (),
+    ensemble: Mapping[str, Any] | None, named: Sequence[str] = (), *, fast: bool = False,
 ) -> str:  # fmt: skip
     """The ``config_sha256`` of a scan.
 
     ``machines`` has a row of the paper's parameters for each machine, NaN where one is not given, ``grid``
     the values of λ, σ and V, ``fields`` the words with which a config asks for them, and ``sweep`` the values
     of its axes by their names. Where the grid has other axes than λ and σ, ``named`` are the names of
-    both and of the parameters in each row.
+    both and of the parameters in each row. ``fast``
+    tells that growth rates come from the compiled kernel.
     """
     return digest({
         "model": model, "machines": machines, "grid": grid, "fields": sorted(set(fields)),
         "sweep": [[name, values] for name, values in sweep.items()], "ensemble": ensemble,
         **({"named": list(named)} if named else {}),
+        **({"fast": True} if fast else {}),
     })  # fmt: skip
 
 

@@ -209,6 +209,7 @@ def _check_identity(
     fields = {FIELDS[name].asked for name in FIELDS if name in file}
     rows = machines.reshape(-1, machines.shape[-1])
     named = () if (*grid,) == AXES else (*list(grid)[:2], *numbers)
-    if given != identity(texts["model"], rows, [*grid.values()], fields, swept, None, named):
+    fast = "growth_rate" in file and "kernel" in file["growth_rate"].attrs
+    if given != identity(texts["model"], rows, [*grid.values()], fields, swept, None, named, fast=fast):
         problem = "the attribute 'config_sha256' is of another scan than the axes, parameters and fields are"
         raise InputError(problem)

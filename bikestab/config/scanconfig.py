@@ -109,6 +109,9 @@ class ScanConfig(Strict):
         "violated",
         "growth_rate",
     ]
+    fast: Annotated[
+        bool, Field(strict=True, description="growth_rate by the compiled kernel, the same within 1e-7")
+    ] = False
     sweep: Annotated[
         dict[str, NumberAxis],
         BeforeValidator(lambda given: with_units(given, "sweep")),
@@ -175,6 +178,11 @@ class ScanConfig(Strict):
         return list(kept[0]), np.array([[numbers[name] for name in kept[0]] for numbers in kept], float)
 
     @property
+    def compiled(self) -> bool:
+        """Whether there are growth rates, and the compiled kernel computes them."""
+        return self.fast and "growth_rate" in self.fields
+
+    @property
     def axes(self) -> list[SweptAxis]:
         """The axes of the sweep, as in the config."""
         return swept_axes(self.bicycle, self.sweep)
@@ -232,4 +240,5 @@ class ScanConfig(Strict):
         return identity(
             self.model, rows, [self.grid.values(name) for name in self.grid.names],
             self.fields, {axis.name: axis.values for axis in self.axes}, drawn, named,
+            fast=self.compiled,
         )  # fmt: skip

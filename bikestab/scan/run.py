@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from math import prod
 from pathlib import Path
 
+from bikestab.compiled import check_available
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import KEPT, NOT_KEPT, InputError, ScanError, WorkersLost
 from bikestab.scan.agreement import Agreement
@@ -62,12 +63,15 @@ def run_scan(
     until the volume is written, so that a scan that was stopped goes on where it was. A complete volume of
     a config that means the same is kept; its title and config text become this one's.
 
-    Raises InputError for an output that belongs to another config (unless ``force``), is being written by
-    another scan, cannot be written, or would be too large, and ScanError where the disk is full, a worker
-    is lost, or the exact speeds and the conditions do not agree.
+    Raises InputError where the compiled kernel is asked for and not there, for an output that belongs to
+    another config (unless ``force``), is being written by another scan, cannot be written, or would be too
+    large, and ScanError where the disk is full, a worker is lost, or the exact speeds and the conditions do
+    not agree.
     """
     plan, tiles = Plan(config), tiles_path(config)
     check_size(config)
+    if config.compiled:
+        check_available()
     make_folder(config)
     if not force and (kept := _kept(plan)):
         if tiles.exists():

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.compiled import growth_rates
 from bikestab.critical import Critical, critical
 from bikestab.errors import ScanError
 from bikestab.family import Family
@@ -43,6 +44,7 @@ class Tile:
     V. Else ``above`` [m/s] is the last speed of the tile below. ``block`` has the lengths of a sweep's axes,
     and ``whole`` says whether these are all cells of the machines. Of many machines ``swept``
     has a column (machine, 1) of each parameter that the sweep varies.
+    ``fast`` asks for the compiled kernel.
     """
 
     family: Family
@@ -57,6 +59,7 @@ class Tile:
     block: tuple[int, ...] = ()
     whole: bool = False
     swept: Mapping[str, Floats] = field(default_factory=dict)
+    fast: bool = False
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -169,6 +172,8 @@ def field_values(
     probability: NDArray[np.float32] | None = None,
 ) -> NDArray:
     """A field at a tile's points, from its table (5, 4, cell), mask and probability (cell, V); (λ, σ, V)."""
+    if tile.fast and name == "growth_rate":
+        return growth_rates(table, tile.V).reshape(tile.shape)
     field = FIELDS[name]
     out = np.empty(mask.shape, field.dtype)
     speeds = -(-len(tile.V) // -(-len(tile.V) // _SPEEDS))  # equal parts, for a short one costs more

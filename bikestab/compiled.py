@@ -1,0 +1,107 @@
+"""(table, V) → growth rates in single precision by ``growth.c``, where it was compiled.
+
+``spectrum`` is the reference. The two factors are followed along the speeds from every START-th one, so that
+a value depends on its own and at most START − 1 lower speeds of the grid; where that does not settle, the
+reference's value is taken.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bikestab.errors import InputError
+from bikestab.model import Floats
+from bikestab.polynomials import value_of_cubics
+from bikestab.quartic import split
+from bikestab.spectrum import growth_rate_of
+
+LIBRARY = Path(__file__).with_name("growth.so")
+START = 32  # speeds; divides those of a tile of a scan
+_LANES = 16  # as in growth.c
+_CELLS = 1 << 12  # worked on at a time
+_AGAIN = 1 << 14
+
+
+def available() -> bool:
+    """Whether it was compiled when this package was installed, and can be loaded."""
+    return _library() is not None
+
+
+def check_available() -> None:
+    """Raise InputError where it cannot be used."""
+    if not available():
+        problem = "the compiled kernel is not there"
+        hint = "install bikestab where there is a C compiler, or leave fast out"
+        raise InputError(problem, key=("fast",), hint=hint)
+
+
+@cache
+def _library() -> Any:
+    try:
+        return ctypes.CDLL(str(LIBRARY))
+    except OSError:
+        return None
+
+
+def growth_rates(table: Floats, V: Floats) -> NDArray[np.float32]:
+    """The largest real part of the eigenvalues [s⁻¹] of a table (5, 4, cell) at ascending V [m/s]; (cell, V).
+
+    Within 1e-7 of the reference's, and 1e-13 of the largest eigenvalue. Raises InputError where the kernel is
+    not there.
+    """
+    check_available()
+    out = np.empty((table.shape[-1], len(V)), np.float32)
+    for i in range(0, len(out), _CELLS):
+        part, rates = table[..., i : i + _CELLS], out[i : i + _CELLS]
+        _follow(part, V, rates)
+        cell, k = np.divmod(np.flatnonzero(np.isnan(rates)), len(V))
+        with np.errstate(over="ignore"):  # what single precision cannot hold is inf
+            for n in range(0, len(cell), _AGAIN):
+                at = cell[n : n + _AGAIN], k[n : n + _AGAIN]
+                rates[at] = growth_rate_of(part[..., at[0]], V[at[1]])
+    return out
+
+
+def _follow(table: Floats, V: Floats, out: NDArray[np.float32]) -> None:
+    """Put the growth rates into ``out`` (cell, V), NaN where they are not good."""
+    cells = -(-len(out) // _LANES) * _LANES
+    whole = np.minimum(np.arange(cells), len(out) - 1)  # filled up with the last one
+    rates = out if cells == len(out) else np.empty((cells, len(V)), np.float32)
+    with np.errstate(all="ignore"):
+        rows = np.ascontiguousarray(table[:4][..., whole] / table[4, 0][whole])  # p4 has no power of V
+        starts = V[::START]
+        p = [value_of_cubics(row[..., np.newaxis], starts, (cells, len(starts))) for row in rows]
+        factors = np.array(split(*p[::-1]))  # (4, cell, start)
+    degrees = np.array([np.flatnonzero(row.any(axis=-1)).max(initial=0) for row in rows], np.intc)
+    weights = _weights(V)
+    for n in range(0, len(V), START):
+        some, start = slice(n, n + START), np.ascontiguousarray(factors[..., n // START])
+        _library().growth(
+            *map(_address, (rows, degrees, start, V[some], weights[some], rates[:, some])),
+            *map(ctypes.c_long, (cells, len(V[some]), len(V))),
+        )
+    out[...] = rates[: len(out)]
+
+
+def _weights(V: Floats) -> Floats:
+    """Of the values at the last four speeds in that at each (V, 4), by Lagrange; of fewer near a start."""
+    weights = np.zeros((len(V), 4))
+    weights[:, 0] = 1
+    number = np.arange(len(V)) % START  # of speeds since the start
+    for points in (2, 3, 4):
+        k = np.flatnonzero(number >= points if points == 4 else number == points)
+        before = V[k[:, np.newaxis] - np.arange(1, points + 1)]
+        for i in range(points):
+            others = np.delete(before, i, axis=-1)
+            weights[k, i] = ((V[k, np.newaxis] - others) / (before[:, [i]] - others)).prod(axis=-1)
+    return weights
+
+
+def _address(array: NDArray) -> ctypes.c_void_p:
+    return ctypes.c_void_p(array.ctypes.data)
