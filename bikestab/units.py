@@ -6,20 +6,30 @@ import math
 import re
 from collections.abc import Mapping
 from numbers import Real
+from typing import TypeAlias
 
 from bikestab.errors import InputError, nearest
 
-Units = Mapping[str, float]  # of one dimension: how many SI units each is
+Size: TypeAlias = "tuple[int, int] | float"  # a quotient of whole numbers, or a double
+Units: TypeAlias = Mapping[str, Size]  # of one dimension: how many SI units each is
 
 # foot, inch, pound: exact since 1959; mile per hour and knot: 1609.344 m and 1852 m in 3600 s, exact
-ANGLE = {"rad": 1.0, "deg": math.pi / 180, "°": math.pi / 180}
-LENGTH = {"m": 1.0, "mm": 0.001, "cm": 0.01, "in": 0.0254, "ft": 0.3048}
-SPEED = {"m/s": 1.0, "km/h": 1 / 3.6, "mph": 0.44704, "kn": 1852 / 3600}
-MASS = {"kg": 1.0, "g": 0.001, "lb": 0.45359237}
-INERTIA = {f"{m} {r}²": M * R * R for m, M in MASS.items() for r, R in LENGTH.items()}
-DAMPING = {"kg m²/s": 1.0, "N m s": 1.0}
-ACCELERATION = {"m/s²": 1.0, "ft/s²": 0.3048}
-PURE: dict[str, float] = {}
+_DEGREE = math.pi / 180  # as a double, so that tilts and head angles of whole degrees add up to 90
+_RATIOS = {
+    "m": (1, 1), "mm": (1, 1000), "cm": (1, 100), "in": (254, 10_000), "ft": (3048, 10_000),
+    "kg": (1, 1), "g": (1, 1000), "lb": (45_359_237, 10**8),
+}  # fmt: skip
+ANGLE: Units = {"rad": (1, 1), "deg": _DEGREE, "°": _DEGREE}
+LENGTH: Units = {unit: _RATIOS[unit] for unit in ("m", "mm", "cm", "in", "ft")}
+SPEED: Units = {"m/s": (1, 1), "km/h": (10, 36), "mph": (44_704, 100_000), "kn": (1852, 3600)}
+MASS: Units = {unit: _RATIOS[unit] for unit in ("kg", "g", "lb")}
+INERTIA: Units = {
+    f"{m} {r}²": (_RATIOS[m][0] * _RATIOS[r][0] ** 2, _RATIOS[m][1] * _RATIOS[r][1] ** 2)
+    for m in MASS for r in LENGTH
+}  # fmt: skip
+DAMPING: Units = {"kg m²/s": (1, 1), "N m s": (1, 1)}
+ACCELERATION: Units = {"m/s²": (1, 1), "ft/s²": _RATIOS["ft"]}
+PURE: Units = {}
 
 _DIMENSIONS: dict[str, Units] = {
     "an angle": ANGLE, "a length": LENGTH, "a speed": SPEED, "a mass": MASS, "a moment of inertia": INERTIA,
@@ -28,6 +38,7 @@ _DIMENSIONS: dict[str, Units] = {
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
 _COMMA = re.compile(r"[-+]?\d+,\d+\s*[^\d\s,]*", re.ASCII)
 _MOST_SHOWN = 6
+_LONGEST = 400  # of a number that is taken exactly
 
 
 def quantity(value: object, units: Units, *, key: tuple[str | int, ...] = ()) -> float:
@@ -75,8 +86,7 @@ def _read(text: str, units: Units, key: tuple[str | int, ...]) -> float | str:
         return float(number[0])
     unit = " ".join(re.split(r"[\s*·]+", written.replace("**", "^"))).replace("^", "").replace("2", "²")
     if unit in units:
-        per = 1 / units[unit]  # dividing by a thousand is right to the last digit, as 0.001 is not
-        return float(number[0]) / per if per.is_integer() else float(number[0]) * units[unit]
+        return _times(number[0], units[unit])
     if _COMMA.fullmatch(text):
         hint = f"write {shown(text.replace(',', '.', 1))}; {_allowed(units)}"
         raise InputError(f"{shown(text)} is not a number: it has a comma", key=key, hint=hint)
@@ -91,6 +101,20 @@ def _read(text: str, units: Units, key: tuple[str | int, ...]) -> float | str:
     meant = nearest(unit, units)
     hint = f"{meant} {_allowed(units)}" if meant.startswith("did") else _allowed(units)
     raise InputError(problem, key=key, hint=hint)
+
+
+def _times(number: str, size: Size) -> float:
+    """The double nearest to a decimal number of units of a size."""
+    plain = float(number)
+    if isinstance(size, float):
+        return plain * size
+    if not plain or not math.isfinite(plain) or len(number) > _LONGEST:
+        return plain * (size[0] / size[1])
+    digits, _, exponent = number.lower().partition("e")
+    whole, _, part = digits.partition(".")
+    power = int(exponent or 0) - len(part)
+    top, bottom = int(whole + part) * size[0], size[1]
+    return top * 10**power / bottom if power >= 0 else top / (bottom * 10**-power)
 
 
 def _allowed(units: Units) -> str:

@@ -116,10 +116,39 @@ def test_spellings_of_a_moment_of_inertia(text):
     assert quantity(text, INERTIA) == 0.14
 
 
-@pytest.mark.parametrize(("unit", "thousandth"), [("mm", LENGTH), ("g", MASS)])
-def test_thousandths_are_right_to_the_last_bit(unit, thousandth):
-    for number in range(1, 2000):
-        assert quantity(f"{number}{unit}", thousandth) == float(Fraction(number, 1000))
+EXACTLY = {
+    "mm": (LENGTH, "1/1000"), "cm": (LENGTH, "1/100"), "in": (LENGTH, "254/10000"), "ft": (LENGTH, "0.3048"),
+    "g": (MASS, "1/1000"), "lb": (MASS, "0.45359237"), "kg mm²": (INERTIA, "1/1000000"),
+    "lb in²": (INERTIA, "0.0002926396534292"), "g cm²": (INERTIA, "1/10000000"),
+    "km/h": (SPEED, "5/18"), "mph": (SPEED, "0.44704"), "kn": (SPEED, "463/900"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("unit", EXACTLY)
+def test_units_are_exact_to_the_nearest_double(unit):
+    units, size = EXACTLY[unit]
+    draw = np.random.default_rng(1)
+    for digits, whole in zip(draw.integers(0, 18, 1000), draw.integers(-(10**9), 10**9, 1000), strict=True):
+        for text in (f"{whole / 10 ** int(digits):.{digits}f}", f"{whole}e-{digits}", f"{whole}.{digits}E3"):
+            assert quantity(f"{text}{unit}", units) == float(Fraction(text) * Fraction(size)), text
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("0e999999999mm", 0.0), ("1e-999999999mm", 0.0), ("4.9e-324mm", 0.0), ("5e-321mm", 5e-324),
+        ("1.7e308mm", 1.7e305), (".5mm", 0.0005), ("-5.mm", -0.005), ("+.5e+1mm", 0.005),
+        (f"{'1' * 500}e-500mm", 1 / 9000),
+    ],
+)  # fmt: skip
+def test_units_of_extreme_numbers(text, value):
+    assert quantity(text, LENGTH) == pytest.approx(value, rel=1e-15, abs=0)
+
+
+@pytest.mark.parametrize("text", ["1e400mm", "1e999999999mm", f"{'9' * 5000}mm"])
+def test_units_of_numbers_that_are_too_large(text):
+    with pytest.raises(InputError, match="is not finite"):
+        quantity(text, LENGTH)
 
 
 @pytest.mark.parametrize(
