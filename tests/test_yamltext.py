@@ -101,6 +101,19 @@ def test_values_of_yaml_1_2(text, value):
         pytest.fail("no number is that long")
 
 
+@pytest.mark.parametrize(
+    ("text", "ours", "theirs"),
+    [
+        ("0b1", "0b1", 1), ("-0x1F", "-0x1F", -31), ("+0o17", "+0o17", 15), ("1_000", "1_000", 1000),
+        ("0x1_F", "0x1_F", 31), ("1_0.5", "1_0.5", 10.5), (".5e1", 5.0, ".5e1"),
+    ],
+)  # fmt: skip
+def test_where_another_reader_leaves_the_core_schema(text, ours, theirs):
+    """YAML 1.2, section 10.3.2: no base of two, no sign before 0x and 0o, no underscores; a leading point."""
+    assert yamltext.parse(f"a: {text}\n", "a.yaml").data == {"a": ours}
+    assert YAML(typ="safe", pure=True).load(f"a: {text}\n") == {"a": theirs}
+
+
 @pytest.mark.parametrize("name", sorted(path.name for path in CONFIGS.glob("*.yaml")))
 def test_configs_are_what_another_reader_finds(name):
     text = (CONFIGS / name).read_text("utf-8")

@@ -20,6 +20,8 @@ _KEY = re.compile(r"[A-Za-z_][\w.]*")
 _PLUS_MINUS = re.compile(r"\+/-|\+-|±")
 _FLOAT = re.compile(r"[-+]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?|nan|inf)", re.ASCII | re.IGNORECASE)
 _WHOLE = re.compile(r"[-+]?\d+", re.ASCII)
+TEXTS = ("name", "source")  # which also stand in remarks, as bikestab writes them
+_REMARK = re.compile(rf"# ({'|'.join(TEXTS)}): (\S.*)")
 _EXAMPLE = "a line is 'key = value', or 'key = value +/- standard deviation'"
 
 
@@ -33,10 +35,11 @@ class Measured(NamedTuple):
 
 @dataclass(frozen=True)
 class Equalities:
-    """The entries of such a text, by key, and the name of its file."""
+    """The entries of such a text, by key, the name of its file, and what is told of the machine in TEXTS."""
 
     file: str
     entries: dict[str, Measured]
+    texts: dict[str, str]
 
     def located(self, error: InputError) -> InputError:
         """The same error with this file, and the line of its key, in front."""
@@ -71,8 +74,11 @@ def _entry(line: str) -> tuple[str, str] | None:
 def parse(text: str, file: str) -> Equalities:
     """The entries of a text; InputError names file, line and key."""
     entries: dict[str, Measured] = {}
+    texts: dict[str, str] = {}
     for number, line in enumerate(text.splitlines(), 1):
         stripped = line.strip()
+        if remark := _REMARK.fullmatch(stripped):
+            texts.setdefault(remark[1], remark[2])
         if not stripped or stripped[0] in "#;" or re.fullmatch(r"\[\w+\]", stripped):
             continue
         place = f"{file}, line {number}"
@@ -80,6 +86,9 @@ def parse(text: str, file: str) -> Equalities:
         if not entry:
             raise InputError(f"{shown(stripped)} has no '='", place=place, hint=_EXAMPLE)
         key, value = entry
+        if key in TEXTS:
+            texts[key] = value
+            continue
         if key in entries:
             problem = f"given twice, first in line {entries[key].line}"
             raise InputError(problem, key=(key,), place=place, hint="keep one of them")
@@ -87,7 +96,7 @@ def parse(text: str, file: str) -> Equalities:
             entries[key] = Measured(*mean(value, key), number)
         except InputError as error:
             raise error.at(place) from None
-    return Equalities(file, entries)
+    return Equalities(file, entries, texts)
 
 
 def mean(text: str, key: str) -> tuple[float | str, float]:

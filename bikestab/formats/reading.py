@@ -60,10 +60,11 @@ def _from_equalities(text: str, file: str) -> Found:
             reduced = measured.reduce(found.entries)
         except InputError as error:
             raise found.located(error) from None
-        return Found(reduced.values, found.located, reduced.deviations, reduced.correlations)
+        values = reduced.values | found.texts
+        return Found(values, found.located, reduced.deviations, reduced.correlations)
     values, notes = _settled(found.values, found.located, found.deviations)
     deviations = {key: sd for key, sd in found.deviations.items() if key in values}
-    return Found(values, found.located, deviations, notes=tuple(notes))
+    return Found(values | found.texts, found.located, deviations, notes=tuple(notes))
 
 
 def _from_yaml(text: str, file: str) -> Found:

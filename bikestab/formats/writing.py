@@ -18,7 +18,7 @@ def written(
     """Text of the format that has this ending; ``texts`` are the name and the source.
 
     YAML and JSON give a number with an uncertainty as text, ``"85.0 +/- 0.5"``. The lines of ``.ini`` and
-    ``.txt`` are those of BicycleParameters, whose own reader takes them; there texts are remarks.
+    ``.txt`` are those of BicycleParameters, whose own reader takes them; there texts are remarks of a line.
     InputError for another ending.
     """
     texts = {key: text for key, text in texts.items() if text}

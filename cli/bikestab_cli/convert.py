@@ -20,22 +20,25 @@ from bikestab_cli.options import FILE, NAME, warn
 @click.option("--rider", type=NAME, metavar="FILE", help="Join the rider in a file of BicycleParameters.")
 @click.option(
     "--notation",
-    type=click.Choice(["given", "paper"]),
+    type=click.Choice(["given", "paper", "meijaard2007"]),
     default="given",
     show_default=True,
-    help="The parameters as given, or reduced to the paper's two parts.",
+    help="The parameters as given, or reduced to the paper's two parts; or the 25 of four bodies.",
 )
 @click.option("--force", is_flag=True, help="Replace an existing file.")  # fmt: skip
 def command(bicycle_name: str, output: str | None, rider: str | None, notation: str, force: bool) -> None:
     """Write a bicycle in another format or notation.
 
     Reads whatever --bicycle reads: YAML, JSON and INI of either notation, text and YAML of BicycleParameters,
-    and its pendulum measurements (extra 'measured'). Numbers keep every bit, and their uncertainties.
+    its pendulum measurements (extra 'measured'), and bicycles of JBike6. Numbers keep every bit, and their
+    uncertainties.
 
     \b
     Examples:
       bikestab convert meijaard2007 -o mine.json
       bikestab convert meijaard2007 --notation paper
+
+    There is no way back from two parts to four bodies: they do not tell what of a part is its wheel.
     """
     from bikestab.bicycle import Bicycle
     from bikestab.errors import InputError
@@ -47,6 +50,11 @@ def command(bicycle_name: str, output: str | None, rider: str | None, notation: 
         from bikestab.ridden import with_rider
 
         bicycle = with_rider(bicycle, rider)
+    if notation == "meijaard2007" and bicycle.bodies is None:
+        raise InputError(
+            "the paper's two parts cannot be taken apart into the four bodies of the 25 parameters",
+            place=bicycle_name, hint="they do not tell what of a part is its wheel; leave --notation out",
+        )  # fmt: skip
     numbers, deviations = bicycle.given, dict(bicycle.deviations)
     if notation == "paper" and bicycle.bodies is not None:
         numbers = {key: value for key, value in bicycle.numbers().items() if value is not None}

@@ -62,3 +62,17 @@ def test_what_a_design_of_bikecad_says_to_type_can_be_typed(bikestab, tmp_path):
     assert result["head_angle_deg"] == pytest.approx(71, rel=1e-12)
     assert result["offset"] == pytest.approx(0.045, abs=1e-7)  # of a trail that is told to 0.1 µm
     assert result["set"] == {"w": pytest.approx(1.04435, abs=1e-5), "rF": 0.34}
+
+
+def test_two_parts_cannot_be_taken_apart(bikestab):
+    assert bikestab("convert", "meijaard2007", "--notation", "meijaard2007") == bikestab(
+        "convert", "meijaard2007"
+    )
+    code, out, err = bikestab("convert", "dikarev1981", "--notation", "meijaard2007", "-o", "a.yaml")
+    assert (code, out) == (2, "")
+    assert "error: dikarev1981: the paper's two parts cannot be taken apart into the four bodies" in err
+
+
+def test_the_name_is_kept(bikestab):
+    assert bikestab("convert", "meijaard2007", "-o", "other.ini")[0] == 0
+    assert Bicycle.load("other.ini").name == "meijaard2007"

@@ -127,3 +127,10 @@ def test_recognised():
     assert looks_like("[bicycle]\nw=1\n")
     for other in ("", "w: 1\n", "title: a = b\n", "# w = 1\n", "- w = 1\n", "{w: 1}\n", "just words\n"):
         assert not looks_like(other)
+
+
+def test_name_and_source_are_texts():
+    found = parse("# name: my bike, 2020\n[bicycle]\nsource = a, b # c\nw = 1\n", "a.ini")
+    assert found.texts == {"name": "my bike, 2020", "source": "a, b"}
+    assert found.values == {"w": 1.0}
+    assert parse("# name: one\nname = two\nw = 1\n# name: three\n", "a.ini").texts == {"name": "two"}
