@@ -103,10 +103,14 @@ def spread(
 def own_spread(found: Sensitivity, *, of_file: bool, given: Mapping[str, float]) -> Spread | None:
     """The spread by the deviations of the bicycle's file, if they are asked for, and by those ``given``.
 
-    None where there are none. Correlations are those of the file.
+    None where there are none. Correlations are those of the file. One that is given stands in place of the
+    file's: of the trail, under any of its names.
     """
     bicycle = found.bicycle
     known = {name: sd for name, sd in bicycle.deviations.items() if sd > 0} if of_file else {}
+    trails = _trails(bicycle)
+    if any(name in trails for name in given):
+        known = {name: sd for name, sd in known.items() if name not in trails}
     deviations = {**known, **given}
     return spread(found, deviations, bicycle.correlations) if deviations else None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -150,7 +150,8 @@ over_ends_option = click.option(
 
 sd_option = click.option(
     "--sd", "deviations", multiple=True, metavar="NAME=VALUE|file", callback=deviations_given,
-    help="A parameter's standard deviation, e.g. --sd mB=1.5 --sd lam=0.5deg; file: all that the file gives.",
+    help="A parameter's standard deviation, e.g. --sd mB=1.5 --sd trail=5mm; file: all that the file gives "
+    "and no other --sd does.",
 )  # fmt: skip
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
@@ -174,6 +175,13 @@ def warn(bicycle: Bicycle) -> None:
     for kind, texts in (("note", bicycle.notes), ("warning", bicycle.warnings)):
         for text in texts:
             tell_once(f"{kind}: {bicycle.name}: {text}")
+
+
+def tell_which(bicycle: Bicycle, names: Collection[str]) -> None:
+    """Say which of its two meanings c has in this bicycle's notation, if it is among the ``names``."""
+    if "c" in names:
+        meaning = bicycle.notation["c"].partition(" [")[0]
+        tell_once(f"note: {bicycle.name}: c is the {meaning}")
 
 
 def tell_once(line: str) -> None:

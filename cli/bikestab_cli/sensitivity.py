@@ -13,6 +13,7 @@ from bikestab_cli.options import (
     check_files,
     json_option,
     sd_option,
+    tell_which,
     told_as_options,
 )
 from bikestab_cli.output import print_json, prose, tell_file
@@ -92,6 +93,8 @@ def command(
             sensitivity(bicycle, *design_chosen(bicycle, given), hold=hold, model=model)
             for bicycle in bicycles
         ]
+    for bicycle in bicycles:
+        tell_which(bicycle, deviations[1])
     with told_as_options():
         spreads = [own_spread(each, of_file=True, given=deviations[1]) for each in found]
     records = [

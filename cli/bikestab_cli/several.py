@@ -7,7 +7,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
-from bikestab_cli.options import DEFAULT_BICYCLE, NAME, equation_options, load_bicycle, warn
+from bikestab_cli.options import DEFAULT_BICYCLE, NAME, equation_options, load_bicycle, tell_which, warn
 from bikestab_cli.parameters import parameter
 
 from bikestab.errors import InputError
@@ -67,7 +67,8 @@ def several_machines(function: F) -> F:
     )  # fmt: skip
     changed = click.option(
         "--set", "changes", metavar="NAME=VALUE,...", multiple=True, callback=_values,
-        help="Other values of a parameter in the bicycle's notation, e.g. mB=60,75,100 or rider.m=60,100.",
+        help="Other values of a parameter in the bicycle's notation, e.g. mB=60,75,100 or rider.m=60,100; c "
+        "is the trail among the 25 parameters, the wheelbase in the paper's notation.",
     )  # fmt: skip
     return named(changed(equation_options(function)))
 
@@ -81,6 +82,7 @@ def machines_chosen(names: tuple[str, ...], delta: float | None, changes: Values
     machines = []
     for name in names:
         own = load_bicycle(name, delta)
+        tell_which(own, changes)
         for combination in combinations:
             values = dict(zip(changes, combination, strict=True))
             try:

@@ -15,6 +15,7 @@ from bikestab_cli.options import (
     over_option,
     sd_option,
     tell_once,
+    tell_which,
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
@@ -189,6 +190,7 @@ def _spreads(
     from bikestab.design.spread import own_spread
     from bikestab.plausible import deviation_doubts
 
+    tell_which(bicycle, given)
     for text in deviation_doubts(bicycle, given):
         tell_once(f"warning: {text}")
     if len(answers) > MOST_SPREADS:

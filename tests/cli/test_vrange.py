@@ -424,6 +424,27 @@ def test_a_file_with_deviations_is_noted_once(bikestab):
 def test_a_deviation_larger_than_the_value(bikestab):
     of_trail = "warning: the standard deviation c = 10 m is larger than c = 0.08 m itself: "
     of_trail += "millimetres are written 10mm\n"
-    assert bikestab("vrange", "--bicycle", "meijaard2007", "--sd", "c=10")[::2] == (0, of_trail)
-    assert bikestab("vrange", "--bicycle", "meijaard2007", "--sd", "c=10mm")[::2] == (0, "")
+    which = "note: meijaard2007: c is the trail along the ground\n"
+    assert bikestab("vrange", "--bicycle", "meijaard2007", "--sd", "c=10")[::2] == (0, which + of_trail)
+    assert bikestab("vrange", "--bicycle", "meijaard2007", "--sd", "c=10mm")[::2] == (0, which)
     assert "grams are written 90g" in bikestab("vrange", "--bicycle", "meijaard2007", "--sd", "mB=90")[2]
+
+
+def test_which_c_is_meant(without_warnings):
+    """The trail in one notation, the wheelbase in the other."""
+    machines = ("--bicycle", "meijaard2007", "--bicycle", "dikarev1981")
+    options = ("--lam", "0.3", "--sigma", "0.08", "--set", "c=0.9,1")
+    err = without_warnings("vrange", *machines, *options)[2]
+    notes = [line for line in err.splitlines() if "c is" in line]
+    assert notes == [
+        "note: meijaard2007: c is the trail along the ground", "note: dikarev1981: c is the wheelbase",
+    ]  # fmt: skip
+
+
+def test_a_deviation_that_is_typed_stands_for_that_of_the_file(bikestab):
+    text = preset_text("meijaard2007").replace("\nc: 0.08 ", "\nc: 0.08 +/- 0.01 ")
+    Path("measured.yaml").write_text(text, "utf-8")
+    args = ("vrange", "--bicycle", "measured.yaml", "--json", "--sd", "file", "--sd", "trail=5mm")
+    code, out, err = bikestab(*args)
+    assert (code, err) == (0, "")
+    assert json.loads(out)["results"][0]["spread"]["deviations"] == {"trail": 0.005}

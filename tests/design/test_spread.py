@@ -125,6 +125,8 @@ def test_deviations_of_the_file_and_given_ones():
     assert own_spread(found, of_file=False, given={}) is None
     assert own_spread(found, of_file=True, given={})["deviations"] == {"mB": 1.0, "c": 0.001}
     assert own_spread(found, of_file=True, given={"c": 0.01})["deviations"] == {"mB": 1.0, "c": 0.01}
+    typed = own_spread(found, of_file=True, given={"sigma": 0.01})["deviations"]
+    assert typed == {"mB": 1.0, "sigma": 0.01}  # the trail under another name
 
 
 @pytest.mark.parametrize(
