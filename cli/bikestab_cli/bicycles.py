@@ -36,7 +36,9 @@ def command(name: str | None, output: str | None, given: Given, as_json: bool) -
       bikestab bicycles mine.yaml --head-angle 71deg --offset 45mm -o side.png
     """
     from bikestab.bicycle import Bicycle
+    from bikestab.errors import InputError
     from bikestab.presets import preset_names, preset_text
+    from bikestab.texts import is_there
 
     if output:
         _draw(name, output, given)
@@ -44,6 +46,9 @@ def command(name: str | None, output: str | None, given: Given, as_json: bool) -
     if given:
         option = f"--{next(iter(given)).replace('_', '-')}"
         raise click.UsageError(f"{option} is for a picture: give -o FILE", click.get_current_context())
+    if name and name not in preset_names() and is_there(name):
+        hint = "-o draws it, and 'bikestab convert' prints it"
+        raise InputError("is a file, not a bicycle that comes with bikestab", place=name, hint=hint)
     chosen = [Bicycle.preset(n) for n in ([name] if name else preset_names())]
     if as_json:
         print_json(

@@ -88,7 +88,10 @@ def machines_chosen(names: tuple[str, ...], delta: float | None, changes: Values
             try:
                 bicycle = own.replaced(values) if values else own
             except InputError as error:
-                problem = f"{error.key[0] if error.key else values}: {error.problem}; {error.hint}"
+                problem = f"{error.key[0] if error.key else ', '.join(values)}: {error.problem}; {error.hint}"
+                if "rider.m" not in own.given and any(key.startswith("rider.") for key in values):
+                    problem = f"{own.name} has no rider apart; its file needs one under rider:"
+                    problem += " (see 'bikestab convert --rider')"
                 raise click.BadParameter(problem, param_hint="--set") from None
             if values:
                 warn(bicycle)

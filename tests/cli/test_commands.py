@@ -219,6 +219,8 @@ def test_a_printed_bicycle_is_a_bicycle(bikestab, name):
 
 def test_bicycles_mistake(bikestab):
     mistake(bikestab("bicycles", "dikarev"), "did you mean 'dikarev1981'?")
+    bikestab("convert", "meijaard2007", "-o", "mine.yaml")
+    mistake(bikestab("bicycles", "mine.yaml"), "mine.yaml: is a file, not a bicycle that comes with bikestab")
 
 
 # --- init and schema

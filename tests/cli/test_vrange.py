@@ -448,3 +448,9 @@ def test_a_deviation_that_is_typed_stands_for_that_of_the_file(bikestab):
     code, out, err = bikestab(*args)
     assert (code, err) == (0, "")
     assert json.loads(out)["results"][0]["spread"]["deviations"] == {"trail": 0.005}
+
+
+def test_a_rider_that_is_not_there(bikestab):
+    code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "rider.m=60,100")
+    assert (code, out) == (2, "")
+    assert "meijaard2007 has no rider apart; its file needs one under rider:" in err
