@@ -135,6 +135,11 @@ class Volume:
         return chosen
 
     @property
+    def chosen(self) -> bool:
+        """Whether one machine of a sweep was chosen."""
+        return bool(self._chosen)
+
+    @property
     def samples(self) -> int:
         """How many machines its ensemble has; 0 without one."""
         return int(self.file.attrs.get("ensemble_samples", 0))

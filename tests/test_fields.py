@@ -71,7 +71,7 @@ def test_a_field_is_one_record(tmp_path):
         ).stdout
 
     bikestab_("scan", "scan.yaml", "--quiet")
-    assert json.loads(bikestab_("info", "out", "--json"))["fields"] == ["stable", "steep"]
+    assert json.loads(bikestab_("info", "out", "--json"))["results"][0]["fields"] == ["stable", "steep"]
     assert "steep" in json.loads(bikestab_("schema"))["properties"]["fields"]["items"]["enum"]
     with h5py.File(tmp_path / "out" / "volume.h5") as file:
         data = file["steep"]

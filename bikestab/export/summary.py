@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import prod
+from itertools import product
+from math import isfinite, prod
 from typing import Any
 
 import numpy as np
@@ -48,4 +49,45 @@ def summary(volume: Volume) -> dict[str, Any]:
             for name, values in ((name, volume.axis(name)) for name in volume.axes)
         },
         "warnings": volume.text("warnings").splitlines(),
+        "machines": _machines(volume) if volume.swept or volume.samples else [],
     }
+
+
+def _machines(volume: Volume) -> list[dict[str, Any]]:
+    """Each machine of a sweep, and what an ensemble says of the design of the grid nearest to its own."""
+    names, axes = list(volume.swept), list(volume.swept.values())
+    machines = []
+    for values in product(*(axis.tolist() for axis in axes)):
+        chosen = dict(zip(names, values, strict=True))
+        one = volume.at(chosen)
+        stable = np.count_nonzero(one.read("upper"), axis=-1)
+        points = int(np.count_nonzero(one.read("stable"))) if "stable" in volume.fields else None
+        at, quantiles = _quantiles(one)
+        machines.append(
+            {
+                "set": chosen, "designs_with_a_stable_speed": int(np.count_nonzero(stable)),
+                "stable_points": points, "at": at, "quantiles": quantiles,
+            }
+        )  # fmt: skip
+    return machines
+
+
+def _quantiles(volume: Volume) -> tuple[dict[str, float], list[dict[str, float | None]]]:
+    if not volume.samples:
+        return {}, []
+    names = volume.axes[:2]
+    own = volume.family.own
+    values = [volume.axis(name) for name in names]
+    middle = [x[len(x) // 2] if near is None else near for near, x in zip(own, values, strict=True)]
+    cell = tuple(int(np.argmin(np.abs(x - near))) for near, x in zip(middle, values, strict=True))
+    V1, V2 = (volume.read(f"{end}_quantiles", cell).tolist() for end in ("V1", "V2"))
+    rows = [
+        {"quantile": share, "V1": finite(a), "V2": finite(b)}
+        for share, a, b in zip(volume.file["quantile"][()].tolist(), V1, V2, strict=True)
+    ]
+    return {name: float(x[i]) for name, x, i in zip(names, values, cell, strict=True)}, rows
+
+
+def finite(value: float) -> float | None:
+    """A number as records hold it: None for one that is not finite."""
+    return value if isfinite(value) else None

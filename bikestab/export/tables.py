@@ -39,6 +39,10 @@ INTERVALS: Columns = {
     "lower": _TEXT, "upper": _TEXT, "V1_error": ("float64", "m/s"), "V2_error": ("float64", "m/s"),
     "marginal": _TEXT,
 }  # fmt: skip
+QUANTILES: Columns = {
+    **_DESIGN, "probability_somewhere": ("float64", "1"), "probability_unbounded": ("float64", "1"),
+    "quantile": ("float64", "1"), "V1": ("float64", "m/s"), "V2": ("float64", "m/s"),
+}  # fmt: skip
 SKELETON: Columns = {
     "curve": ("int32", "1"), "name": _TEXT, "closes": ("bool", ""), "point": ("int32", "1"), **_DESIGN,
     "V": ("float64", "m/s"), "start": _TEXT, "end": _TEXT,
@@ -89,6 +93,25 @@ def _bounds(volume: Volume, part: slice, i: Indices, j: Indices, k: Indices) -> 
         return {"V1_error": none, "V2_error": none, "marginal": np.full(len(i), "")}
     errors = {name: volume.read(name, (part,))[i, j, k] for name in ("V1_error", "V2_error")}
     return {**errors, "marginal": np.array(REASONS)[volume.read("marginal", (part,))[i, j]]}
+
+
+def quantile_blocks(volume: Volume) -> Iterator[Block]:
+    """The rows of QUANTILES: one per design and quantile, in the order of the volume's axes.
+
+    Raises InputError where the volume is damaged.
+    """
+    family, (x, y) = volume.family, (volume.axis(name) for name in volume.axes[:2])
+    shares = volume.file["quantile"][()]
+    names = ("probability_somewhere", "probability_unbounded")
+    for start in range(0, len(x), _LAYER):
+        part = slice(start, start + _LAYER)
+        V1, V2 = (volume.read(f"{end}_quantiles", (part,)) for end in ("V1", "V2"))
+        i, j, k = (index.ravel() for index in np.indices(V1.shape))
+        shown = {name: volume.read(name, (part,))[i, j] for name in names}
+        yield {
+            **_designs(x[part][i], y[j], family), **shown,
+            "quantile": shares[k], "V1": V1.ravel(), "V2": V2.ravel(),
+        }  # fmt: skip
 
 
 def skeleton_blocks(curves: Sequence[Curve], family: Family) -> Iterator[Block]:

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from bikestab import __version__
+from bikestab.errors import InputError
 from bikestab.export.meshes import readable_scale, save_mesh
 from bikestab.export.tables import (
     INTERVALS,
+    QUANTILES,
     SKELETON,
+    Block,
+    Columns,
     columns,
     interval_blocks,
+    quantile_blocks,
     save_table,
     skeleton_blocks,
 )
@@ -32,12 +40,53 @@ class Counts(NamedTuple):
 
 
 def export_intervals(volume: Volume, paths: Paths) -> Counts:
-    """Write the stable intervals of every design, one per row. Raises as ``save_table``."""
-    stable = volume.read("upper") > 0
-    for path in paths:
-        save_table(columns(INTERVALS, volume.family), interval_blocks(volume), Path(path), about(volume))
+    """Write the stable intervals of every design, one per row; of a sweep those of every machine.
+
+    Raises as ``save_table``.
+    """
+    machines = machines_of(volume)
+    _save(volume, INTERVALS, machines, interval_blocks, paths)
+    stable = np.stack([one.read("upper") > 0 for _, one in machines])
     designs = stable[..., 0].size
     return Counts(int(stable.sum()), designs, designs - int(stable.any(axis=-1).sum()))
+
+
+def export_quantiles(volume: Volume, paths: Paths) -> int:
+    """Write an ensemble's quantiles of V1 and V2, one row for each of them and design; how many rows.
+
+    Of a sweep those of every machine. Raises InputError without an ensemble, and as ``save_table``.
+    """
+    if not volume.samples:
+        raise InputError("has no ensemble", place=str(volume.path), hint="add 'ensemble:' to its config")
+    machines = machines_of(volume)
+    _save(volume, QUANTILES, machines, quantile_blocks, paths)
+    return int(sum(one.read("V1_quantiles").size for _, one in machines))
+
+
+def machines_of(volume: Volume) -> list[tuple[dict[str, float], Volume]]:
+    """Each machine of a sweep with its values of the sweep; of a chosen one, or without a sweep, itself."""
+    if not volume.swept or volume.chosen:
+        return [({}, volume)]
+    combinations = product(*(axis.tolist() for axis in volume.swept.values()))
+    sets = [dict(zip(volume.swept, values, strict=True)) for values in combinations]
+    return [(values, volume.at(values)) for values in sets]
+
+
+def _save(
+    volume: Volume, kind: Columns, machines: Sequence[tuple[dict[str, float], Volume]],
+    blocks: Callable[[Volume], Iterator[Block]], paths: Paths,
+) -> None:  # fmt: skip
+    """Write a table of all machines, with the sweep's values in the first columns where there are several."""
+    first = machines[0][1]
+    names: Columns = dict.fromkeys(machines[0][0], ("float64", ""))
+    own = columns(kind, first.family)
+    for path in paths:
+        rows = (
+            {**{name: np.full(len(block["lam"]), value) for name, value in values.items()}, **block}
+            for values, one in machines
+            for block in blocks(one)
+        )
+        save_table({**names, **own}, rows, Path(path), about(volume))
 
 
 def export_skeleton(volume: Volume, paths: Paths) -> list[Curve]:
@@ -75,8 +124,9 @@ def export_mesh(
 def about(volume: Volume) -> dict[str, str]:
     """What every file says of where it comes from."""
     bicycle = volume.bicycle
+    damping = {} if volume.swept and not volume.chosen else {"delta": repr(bicycle.delta)}  # of one machine
     return {
-        "title": volume.title, "bicycle": bicycle.name, "model": volume.model, "delta": repr(bicycle.delta),
+        "title": volume.title, "bicycle": bicycle.name, "model": volume.model, **damping,
         "source": f"bikestab {__version__}", "kinds": "1 weave, 2 capsize",
     }  # fmt: skip
 

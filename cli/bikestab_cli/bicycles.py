@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
 from bikestab_cli.options import FILE, NAME, check_files, json_option
-from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.output import WIDTH, print_json, tell_file
 
 
 @click.command("bicycles")
@@ -51,12 +51,10 @@ def command(name: str | None, output: str | None, given: Given, as_json: bool) -
         raise InputError("is a file, not a bicycle that comes with bikestab", place=name, hint=hint)
     chosen = [Bicycle.preset(n) for n in ([name] if name else preset_names())]
     if as_json:
-        print_json(
-            [
-                {"name": b.name, "source": b.source, **b.numbers(), "warnings": list(b.warnings)}
-                for b in chosen
-            ]
-        )
+        results = [
+            {"name": b.name, "source": b.source, **b.numbers(), "warnings": list(b.warnings)} for b in chosen
+        ]
+        print_json({"results": results})
         return
     if name:
         click.echo(preset_text(name), nl=False)
@@ -66,10 +64,12 @@ def command(name: str | None, output: str | None, given: Given, as_json: bool) -
         if bicycle.lam is not None and bicycle.sigma is not None:
             own = f"own design point: λ = {bicycle.lam:.6g} rad, σ = {bicycle.sigma:.6g}"
         click.echo(bicycle.name)
-        click.echo(textwrap.fill(bicycle.source, 96, initial_indent="  ", subsequent_indent="  "))
+        click.echo(textwrap.fill(bicycle.source, WIDTH, initial_indent="  ", subsequent_indent="  "))
         click.echo(f"  {own}")
         for text in bicycle.warnings:
-            click.echo(textwrap.fill(f"warning: {text}", 96, initial_indent="  ", subsequent_indent="    "))
+            click.echo(
+                textwrap.fill(f"warning: {text}", WIDTH, initial_indent="  ", subsequent_indent="    ")
+            )
 
 
 def _draw(name: str | None, output: str, given: Given) -> None:

@@ -221,7 +221,7 @@ def _words(proof: Proof) -> str:
         lines.append(f"not stable at {where}, where it grows at {grows:.4g} 1/s")
     if record["undecided"]:
         lines.append(
-            "twice as many --cells leave about half of what is undecided: cells with the boundary in them"
+            "twice as many --cells leave about half of what is undecided:\n  cells with the boundary in them"
         )
     return "\n".join(lines)
 

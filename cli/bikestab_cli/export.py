@@ -52,6 +52,10 @@ class _Scale(click.ParamType):
     multiple=True,
     help="Curves where intervals change: .csv or .parquet.",
 )
+@click.option(
+    "--quantiles", type=FILE, metavar="FILE", multiple=True,
+    help="An ensemble's quantiles of V1 and V2: .csv or .parquet.",
+)  # fmt: skip
 @at_option
 @click.option(
     "--cells", type=click.IntRange(10, 400), default=100, show_default=True,
@@ -66,6 +70,7 @@ def command(
     meshes: tuple[str, ...],
     intervals: tuple[str, ...],
     skeleton: tuple[str, ...],
+    quantiles: tuple[str, ...],
     machine: dict[str, float],
     cells: int,
     scale: tuple[float, float, float] | None,
@@ -73,6 +78,8 @@ def command(
     """Write what a volume shows for other programs.
 
     VOLUME is a volume.h5 or its folder. The ending of each FILE chooses its format; options may be repeated.
+    Tables of a sweep have all its machines, with the values of its axes in the first columns, or that
+    of --at.
     The mesh is computed anew in the volume's box, whatever its grid: every vertex lies on the surface to
     rounding, and it has no holes. The factors of its axes are told, and stand in the file.
 
@@ -88,23 +95,26 @@ def command(
     from bikestab.export.formats import file_format
     from bikestab.export.meshes import MESHES, scale_text
     from bikestab.export.tables import TABLES
-    from bikestab.export.volumes import export_intervals, export_mesh, export_skeleton
+    from bikestab.export.volumes import export_intervals, export_mesh, export_quantiles, export_skeleton
     from bikestab.volume import Volume
 
-    if not (meshes or intervals or skeleton):
+    if not (meshes or intervals or skeleton or quantiles):
         raise click.UsageError(
-            "give --mesh, --intervals or --skeleton, for example --mesh region.vtp",
+            "give --mesh, --intervals, --skeleton or --quantiles, for example --mesh region.vtp",
             click.get_current_context(),
         )
-    for names, known in ((meshes, MESHES), (intervals + skeleton, TABLES)):
+    for names, known in ((meshes, MESHES), (intervals + skeleton + quantiles, TABLES)):
         for name in names:
             file_format(name, known)  # before the computation, which takes seconds
-    names = (*meshes, *intervals, *skeleton)
+    names = (*meshes, *intervals, *skeleton, *quantiles)
     check_files(*names)
     with Volume(volume) as whole:
-        opened = whole.at(machine)
+        every = whole.swept and not machine and not (meshes or skeleton)
+        opened = whole if every else whole.at(machine)
         if intervals:
             _echo(intervals, _intervals_told(export_intervals(opened, intervals)))
+        if quantiles:
+            _echo(quantiles, count(export_quantiles(opened, quantiles), "row"))
         if skeleton:
             curves = export_skeleton(opened, skeleton)
             points = sum(len(curve.x) for curve in curves)

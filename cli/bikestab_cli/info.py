@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import click
 from bikestab_cli.options import NAME, json_option
-from bikestab_cli.output import print_json
+from bikestab_cli.output import WIDTH, print_json, table
+
+_MOST = 40  # machines in a table
 
 
 @click.command("info")
@@ -33,14 +36,14 @@ def command(volume: str, show_config: bool, as_json: bool) -> None:
             return
         found = summary(opened)
     if as_json:
-        print_json(found)
+        print_json({"results": [found]})
     else:
         click.echo(_told(found))
 
 
 def _told(summary: dict[str, Any]) -> str:
     """A line for each entry, those of the sweep and of the axes with their values."""
-    axes, sweep, warnings = (summary.pop(key) for key in ("axes", "sweep", "warnings"))
+    axes, sweep, warnings, machines = (summary.pop(key) for key in ("axes", "sweep", "warnings", "machines"))
     width = max(map(len, summary)) + 2
     lines = []
     for key, value in summary.items():
@@ -57,4 +60,39 @@ def _told(summary: dict[str, Any]) -> str:
         unit = "" if axis["unit"] == "1" else f" {axis['unit']}"
         lines.append((name, f"{axis['first']:g} ... {axis['last']:g}{unit}, {axis['num']} values, {steps}"))
     lines += [("warning", text) for text in warnings]
-    return "\n".join(f"{name:<{width}}{shown}" for name, shown in lines)
+    told = []
+    for name, shown in lines:
+        text = f"{shown[:16]} ..." if name == "config sha256" else str(shown)
+        words = textwrap.wrap(text, WIDTH - width, break_long_words=False, break_on_hyphens=False)
+        first, *others = words or [""]
+        told += [f"{name:<{width}}{first}", *(" " * width + other for other in others)]
+    if machines:
+        told += ["", *_machines(machines)]
+    return "\n".join(told)
+
+
+def _machines(machines: list[dict[str, Any]]) -> list[str]:
+    """A table of the machines of a sweep, and of an ensemble's quantiles at one design."""
+    rows = []
+    for each in machines[:_MOST]:
+        name = "\n".join(f"{name}={value:g}" for name, value in each["set"].items()) or "all"
+        points = "" if each["stable_points"] is None else str(each["stable_points"])
+        row = [name, str(each["designs_with_a_stable_speed"]), points]
+        if each["quantiles"]:
+            row += ["\n".join(f"{x['quantile']:g}" for x in each["quantiles"])]
+            row += ["\n".join(map(_speed, (x[end] for x in each["quantiles"]))) for end in ("V1", "V2")]
+        rows.append(row)
+    shares = machines[0]["quantiles"]
+    head = ["machine", "stable\ndesigns", "stable\npoints"]
+    head += ["quantile", "V1 [m/s]", "V2 [m/s]"] if shares else []
+    lines = [table(head, rows, fold=0)]
+    if len(machines) > _MOST:
+        lines.append(f"and {len(machines) - _MOST} more machines, which --json lists")
+    if shares:
+        design = ", ".join(f"{name} = {value:.6g}" for name, value in machines[0]["at"].items())
+        lines.append(f"quantiles at {design} of the machines that are stable there")
+    return lines
+
+
+def _speed(V: float | None) -> str:
+    return "-" if V is None else f"{V:.4f}"

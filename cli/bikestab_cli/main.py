@@ -18,8 +18,9 @@ from bikestab.files import NOT_THERE
 
 COMMANDS = (
     "scan", "vrange", "sensitivity", "eigen", "design", "slice", "export", "reproduce", "certify", "check",
-    "compare", "info", "bicycles", "convert", "init", "schema",
+    "compare", "info", "bicycles", "convert", "init", "schema", "completion",
 )  # fmt: skip
+COMPLETE = "_BIKESTAB_COMPLETE"  # set by a shell that wants words
 LEAST_MEMORY = 512 << 20
 _NO_MEMORY = "failed to map segment"  # the loader's words for it
 DEVELOPER = "please report it, with what 'python -X dev -m bikestab ...' shows"
@@ -46,7 +47,7 @@ class _Lazy(click.Group):
 
 
 @click.group(cls=_Lazy, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(__version__, message="%(prog)s %(version)s")
+@click.version_option(__version__, "-V", "--version", message="%(prog)s %(version)s")
 def cli() -> None:
     """Map where a bicycle or motorcycle runs straight by itself.
 
@@ -68,6 +69,10 @@ def main(program: str = "bikestab") -> None:
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices are 4 × 4, and each thread takes 30 MB
     atexit.register(gc.freeze)  # the exit is 10 ms sooner if it looks for no garbage
+    if os.environ.get(COMPLETE):
+        from click.shell_completion import shell_complete
+
+        sys.exit(shell_complete(cli, {}, program, COMPLETE, os.environ[COMPLETE]))
     code = 0
     with visible_streams():
         try:

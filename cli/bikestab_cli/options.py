@@ -98,6 +98,16 @@ class Name(click.ParamType):
             self.fail(f"{text!r} is a folder, not a file to write", param, ctx)
         return text
 
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[Any]:
+        """Files; where a bicycle is wanted those that come with bikestab too."""
+        from click.shell_completion import CompletionItem
+
+        from bikestab.presets import preset_names
+
+        wanted = preset_names() if param.name == "bicycle_name" else []
+        fitting = [CompletionItem(name) for name in wanted if name.startswith(incomplete)]
+        return [*fitting, CompletionItem(incomplete, type="file")]
+
 
 NAME, FILE = Name(), Name(of_file=True)
 _KINDS: tuple[tuple[str, Units], ...] = (

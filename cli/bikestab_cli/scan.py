@@ -77,7 +77,7 @@ def command(
                 click.echo(_line(name, result, pictures, time.perf_counter() - start))
     finally:
         if as_json and (done or not sys.exc_info()[0]):
-            print_json(done)
+            print_json({"results": done})
 
 
 def _load(names: tuple[str, ...], overrides: tuple[str, ...]) -> list[tuple[str, ScanConfig]]:

@@ -1,14 +1,17 @@
-"""bikestab schema: the JSON Schema of a config, for editors."""
+"""bikestab schema: the JSON Schema of a config, for editors, and of what commands print."""
 
 from __future__ import annotations
 
 import click
 from bikestab_cli.output import print_json
 
+from bikestab.errors import nearest
+
 
 @click.command("schema")
-def command() -> None:
-    """Print the JSON Schema of a config, for editors.
+@click.argument("name", required=False, metavar="[COMMAND]")
+def command(name: str | None) -> None:
+    """Print the JSON Schema of a config, for editors, or of what COMMAND prints with --json.
 
     It gives completion and checks while typing.
 
@@ -16,9 +19,19 @@ def command() -> None:
     # yaml-language-server: $schema=bikestab.schema.json
 
     \b
-    Example:
+    Examples:
       bikestab schema > bikestab.schema.json
+      bikestab schema vrange
     """
+    if name is not None:
+        from bikestab_cli.schemas import SCHEMAS
+
+        if name not in SCHEMAS:
+            raise click.BadParameter(
+                f"{name!r} has no --json; {nearest(name, SCHEMAS)}", param_hint="COMMAND"
+            )
+        print_json(SCHEMAS[name])
+        return
     from bikestab.config.file import config_schema
 
     print_json(config_schema())

@@ -53,7 +53,7 @@ def test_export_and_info(scanned, tmp_path):
         pytest.approx([8, 0]), pytest.approx([22, 8]),
     )  # fmt: skip
     code, out, _ = scanned("info", "out", "--json")
-    assert json.loads(out)["axes"]["mB"] == {
+    assert json.loads(out)["results"][0]["axes"]["mB"] == {
         "first": 40.0, "last": 110.0, "num": 8, "unit": "kg", "uniform": True,
     }  # fmt: skip
 

@@ -4,6 +4,7 @@ import csv
 import json
 from pathlib import Path
 
+import h5py
 import pytest
 
 CONFIG = """\
@@ -77,7 +78,7 @@ def test_slice_of_one_machine(scan, bikestab):
 )
 def test_a_machine_that_is_not_there(scan, bikestab, args, expected):
     scan(SWEEP)
-    for command in (("slice", "out/a", "--lam", "0.2"), ("export", "out/a", "--intervals", "i.csv")):
+    for command in (("slice", "out/a", "--lam", "0.2"), ("export", "out/a", "--skeleton", "i.csv")):
         code, out, err = bikestab(*command, *args)
         assert (code, out) == (2, "")
         assert expected in err
@@ -95,12 +96,43 @@ def test_export_of_one_machine(scan, bikestab):
     assert ends[0] != ends[1]
 
 
+def read(name):
+    with Path(name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_export_of_all_machines_and_of_quantiles(scan, bikestab):
+    scan(SWEEP + ENSEMBLE)
+    code, out, _ = bikestab("export", "out/a", "--intervals", "all.csv", "--quantiles", "q.csv")
+    assert (code, out.splitlines()[-1]) == (0, "q.csv: 300 rows")
+    rows = read("all.csv")
+    for delta in ("0.0", "2.0"):
+        bikestab("export", "out/a", "--intervals", "i.csv", "--at", f"delta={delta}")
+        own = read("i.csv")
+        assert [row for row in rows if row["delta"] == delta] == [{"delta": delta, **row} for row in own]
+    with h5py.File("out/a/volume.h5") as file:
+        stored = file["V1_quantiles"][()]
+    quantiles = read("q.csv")
+    assert [float(row["V1"] or "nan") for row in quantiles] == pytest.approx(
+        stored.ravel(), nan_ok=True, rel=0
+    )
+    scan("output: out/b\n")
+    code, _, err = bikestab("export", "out/b", "--quantiles", "q.csv")
+    assert code == 2
+    assert "has no ensemble" in err
+
+
 def test_info(scan, bikestab):
     scan(SWEEP + ENSEMBLE)
-    found = json.loads(bikestab("info", "out/a", "--json")[1])
+    (found,) = json.loads(bikestab("info", "out/a", "--json")[1])["results"]
     assert found["sweep"] == {"delta": [0, 2]}
     assert (found["points"], found["designs"], found["ensemble_samples"]) == (600, 60, 20)
-    assert "delta                               0, 2 (sweep)" in bikestab("info", "out/a")[1]
+    out = bikestab("info", "out/a")[1]
+    assert "delta                               0, 2 (sweep)" in out
+    assert "delta=2" in out.split("machine")[1]
+    quantile = found["machines"][1]["quantiles"][0]
+    assert f"{quantile['V1']:.4f}" in out
+    assert found["machines"][1]["set"] == {"delta": 2}
 
 
 def test_a_probability_between_two_planes_is_that_of_the_nearest(scan, bikestab):

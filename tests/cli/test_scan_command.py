@@ -68,7 +68,7 @@ def test_json(scan):
     Path("a.yaml").write_text(SLICED)
     code, out, err = scan("a.yaml", "b.yaml", "--json")
     assert (code, err) == (0, "")
-    first, second = json.loads(out)
+    first, second = json.loads(out)["results"]
     assert list(first) == [
         "config", "bicycle", "volume", "pictures", "computed", "points", "stable_points",
         "largest_boundary_difference", "bracketed_zeros", "largest_bracketed_difference", "warnings",
@@ -95,7 +95,7 @@ def test_a_second_run_keeps_the_volume(scan):
     assert "was complete already (--force computes again)" in out
     assert Path("out/a/volume.h5").stat().st_mtime_ns == before
     assert "out/a/slice_lam_0.2.png" in outputs()
-    (again,) = json.loads(scan("a.yaml", "--json")[1])
+    (again,) = json.loads(scan("a.yaml", "--json")[1])["results"]
     assert (again["computed"], again["largest_boundary_difference"]) == (False, None)
 
 
@@ -266,7 +266,7 @@ def test_json_of_what_was_finished_before_a_failure(scan, tiles, error, code, to
     got, out, err = scan("a.yaml", "b.yaml", "--json")
     assert got == code
     assert err.startswith(told)
-    (summary,) = json.loads(out)
+    (summary,) = json.loads(out)["results"]
     assert (summary["config"], summary["computed"]) == ("a.yaml", True)
     assert outputs() == ["out/a/region.png", "out/a/volume.h5", "out/b/volume.h5.tiles"]
 

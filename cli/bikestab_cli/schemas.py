@@ -1,0 +1,237 @@
+"""The JSON Schema of what each command prints with --json; docs/json.md is made from them."""
+
+from __future__ import annotations
+
+from bikestab_cli.shapes import (
+    DESIGN,
+    ENDS,
+    INTERVAL,
+    INTERVALS,
+    KIND,
+    MAYBE_KIND,
+    MODEL,
+    NULL,
+    NUMBERS,
+    TEXTS,
+    VERDICT,
+    Schema,
+    answer,
+    either,
+    flag,
+    maybe,
+    named,
+    num,
+    of_machines,
+    record,
+    some,
+    whole,
+    words,
+)
+
+_PAIR = {"type": "array", "items": NUMBERS, "minItems": 2, "maxItems": 2}
+_MAYBE_PAIR = {"anyOf": [_PAIR, NULL]}
+_NEAREST = record(
+    "what would help",
+    sigma_min=maybe("the nearest larger σ with a stable speed"), sigma_max=maybe("the nearest smaller"),
+    lam_min=maybe("the nearest λ with one, from here [rad]"), lam_max=maybe("to here [rad]"),
+    V=maybe("the speed at which the motion grows least [m/s]"), growth_rate=maybe("how fast there [1/s]"),
+)  # fmt: skip
+_END = record(
+    "an end of the stable speeds [m/s]",
+    own=maybe("the machine's own"), linear=maybe("its standard deviation by the linear rule"),
+    sampled=maybe("by drawn machines"), low=maybe("the lowest twentieth of the machines ends here"),
+    median=maybe("their median"), high=maybe("the highest twentieth begins here"),
+)  # fmt: skip
+_SPREAD = record(
+    "how far the stable speeds are known, with --sd",
+    deviations=named(NUMBERS, "standard deviations by parameter"),
+    samples=whole("drawn machines that can exist"),
+    refused=whole("drawn ones that cannot"), exists=num("share of them that are stable somewhere"),
+    unbounded=num("share of them without an upper limit"), V1=_END, V2=_END,
+    reasons=some(TEXTS, "why the linear rule is wrong; empty where it is right"),
+)  # fmt: skip
+_BRANCHES = some(
+    record(
+        "one continuous branch", branch=words("what it is at high speeds"),
+        name=some(TEXTS, "its name at each speed"), re=some(NUMBERS, "real part [1/s]"),
+        im=some(NUMBERS, "imaginary part [rad/s]"),
+    ),
+    "the four eigenvalues",
+)  # fmt: skip
+_COALESCENCES = some(
+    record(
+        "two eigenvalues meet", V=num("at this speed [m/s]"), branches=some({"type": "integer"}, "which two"),
+        below=some(TEXTS, "their names below it"), above=some(TEXTS, "and above"),
+    ),
+    "where eigenvalues go from real to complex or back",
+)  # fmt: skip
+_JUDGED = either(
+    record(
+        "a design, one of its intervals, and its growth rate",
+        **DESIGN, V1=maybe("lower end [m/s]; null: nothing is stable"),
+        V2=maybe("upper end; null: unbounded"),
+        lower=MAYBE_KIND, upper=MAYBE_KIND, width=num("of the interval up to V_max [m/s]"),
+        growth_rate=maybe("where it is judged [1/s]; null: infinite"),
+        V=num("the speed it is judged at [m/s]"),
+        at=words("where in the box it lies"),
+    ),
+    NULL, text="null: there is none",
+)  # fmt: skip
+_ROW = record(
+    "one parameter's effect",
+    name=words("parameter"), value=maybe("in SI units"), unit=words("of the value"),
+    meaning=words("in words"),
+    notation=flag("whether it is one of the bicycle's notation"), dV1=maybe("dV1/dp"), dV2=maybe("dV2/dp"),
+    elasticity_V1=maybe("per cent for one per cent"), elasticity_V2=maybe("the same for V2"),
+    change=maybe("by how much it changes where V1 falls by 0.1 m/s"),
+)  # fmt: skip
+_TRIED = record(
+    "the widest interval with other values", what=words("in words"), values=named(NUMBERS, "the values"),
+    interval=either(INTERVAL, NULL, text="null: none is stable"),
+)  # fmt: skip
+_BEST = record(
+    "the lowest growth rate", value=maybe("[1/s]"), V=num("at this speed [m/s]"),
+    kind=words("smooth, crossing, meeting or end"), slope=named(maybe(""), "its derivatives by parameter"),
+)  # fmt: skip
+_SIDE = record(
+    "one of the two", name=words("as it was typed"), bicycle=words("its name"), model=MODEL,
+    delta=num("steering damping [kg m²/s]"), intervals=INTERVALS,
+    design=either(record("a design", **DESIGN), NULL, text="what is compared; null: it has none of its own"),
+)  # fmt: skip
+_CHANGE = record(
+    "one quantity of both", what=words("which"), unit=words("its unit"), A=maybe("of A"), B=maybe("of B"),
+    change=maybe("B - A"), percent=maybe("of A"), A_kind=MAYBE_KIND, B_kind=MAYBE_KIND,
+    within={"type": ["boolean", "null"],
+    "description": "whether it is within what is asked; null: not asked"},
+)  # fmt: skip
+_REGION = record(
+    "the stable regions", box=named(_PAIR, "the ends of λ, σ and V"),
+    designs=some({"type": "integer"}, "λ, σ"),
+    A=num("volume of A's [rad m/s]"), B=num("of B's"), difference=num("of the symmetric difference"),
+    union=num("of the union"), share=num("the difference as a share of the union"),
+    mean=num("distance of the stable speeds, on the mean of designs with any [m/s]"),
+    within=_CHANGE["properties"]["within"],
+)  # fmt: skip
+_WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")
+_AXIS = record(
+    "an axis", first=num("first value"), last=num("last value"), num=whole("how many"),
+    unit=words("as in the file"),
+    uniform=flag("whether the steps are equal"),
+)  # fmt: skip
+_MACHINE = record(
+    "a machine", set=named(NUMBERS, "its values of the sweep"),
+    designs_with_a_stable_speed=whole("of the grid"),
+    stable_points={"type": ["integer", "null"], "description": "of the grid; null if that is not stored"},
+    at=named(NUMBERS, "the design of the grid nearest to its own, of which the quantiles are"),
+    quantiles=some(
+        record(
+            "of an ensemble's stable machines", quantile=num("share"),
+            V1=maybe("[m/s]; null: none is stable"),
+            V2=maybe("[m/s]; null: unbounded, or none"),
+        ),
+        "empty without an ensemble",
+    ),
+)  # fmt: skip
+SCHEMAS: dict[str, Schema] = {
+    "vrange": of_machines(
+        "a design", ("spread",), **DESIGN, intervals=INTERVALS, **VERDICT,
+        nearest=either(_NEAREST, NULL, text="null where there is a stable speed"), spread=_SPREAD,
+    ),
+    "eigen": of_machines(
+        "a design", **DESIGN, intervals=INTERVALS, **VERDICT, coalescences=_COALESCENCES,
+        V=some(NUMBERS, "speeds [m/s]"), branches=_BRANCHES,
+    ),
+    "design": of_machines(
+        "a machine's search",
+        searched=record(
+            "what was asked", lam=_PAIR, sigma=_PAIR, trail=_MAYBE_PAIR, offset=_MAYBE_PAIR,
+            V_max=num("intervals count up to here [m/s]"), judged=_MAYBE_PAIR, stable=_MAYBE_PAIR,
+        ),
+        own=_JUDGED, widest=_JUDGED, lowest_V1=_JUDGED, fastest_decay=_JUDGED,
+        pareto=some(_JUDGED, "from the widest to the fastest"), closest=_JUDGED,
+    ),
+    "sensitivity": of_machines(
+        "a design", **DESIGN, hold={"enum": ["trail", "offset", "sigma"], "description": "what stays"},
+        best=_BEST, tried=some(_TRIED, "computed anew, not by derivatives"),
+        intervals=some(
+            record("an interval", **ENDS, parameters=some(_ROW, "the largest effects first")), "ascending"
+        ),
+        spread=either(_SPREAD, NULL, text="null without standard deviations"),
+    ),
+    "check": answer(
+        either(
+            record(
+                "one expectation", config=words("the file"), bicycle=words("its bicycle"),
+                model=MODEL, **DESIGN,
+                expected=record(
+                    "as in the config", ("V1", "V2", "within", "stable"), V1=num("[m/s]"),
+                    V2=either(NUMBERS, {"const": "unbounded"}, text="[m/s]"), within=_WITHIN,
+                    stable={"const": "never"},
+                ),
+                intervals=INTERVALS, holds=flag("whether it is so"),
+            ),
+            record("a file that cannot be used", config=words("the file"), error=words("why")),
+            text="an expectation, or a file that cannot be used",
+        )
+    ),
+    "compare": answer(
+        record(
+            "the comparison", A=_SIDE, B=_SIDE, parameters=some(_CHANGE, "those that differ"),
+            ends=some(_CHANGE, "of the stable speeds"), growth_rate=some(_CHANGE, "in their middle"),
+            region=_REGION,
+            within=either(_WITHIN, NULL, text="what is asked"),
+            holds={"type": ["boolean", "null"],
+            "description": "whether all is within; null: nothing is asked"},
+        )
+    ),
+    "scan": answer(
+        record(
+            "a config", config=words("the file"), bicycle=words("its bicycle"),
+            volume=words("the file written"),
+            pictures=some(TEXTS, "files drawn"), computed=flag("false: it was complete already"),
+            points=whole("of the grid"), stable_points=whole("of these"),
+            largest_boundary_difference=maybe("between conditions' signs and exact speeds [m/s]"),
+            bracketed_zeros={"type": ["integer", "null"], "description": "found by scipy too"},
+            largest_bracketed_difference=maybe("between these and the exact speeds [m/s]"),
+            warnings=some(TEXTS, "what no rigid body can have"),
+        )
+    ),
+    "info": answer(
+        record(
+            "a volume", volume=words("the file"), title=words("its title"), bicycle=words("its bicycle"),
+            model=MODEL,
+            delta=num("steering damping [kg m²/s]"), fields=some(TEXTS, "what it holds over the grid"),
+            ensemble_samples=whole("machines drawn; 0: no ensemble"), points=whole("of the grid"),
+            stable_points=whole("of these"), designs=whole("of the grid"),
+            designs_with_a_stable_speed=whole("of these"), designs_with_several_intervals=whole("of these"),
+            designs_stable_without_upper_limit=whole("of these"),
+            designs_marginal={"type": ["integer", "null"], "description": "null in earlier volumes"},
+            largest_boundary_difference=num("between conditions' signs and exact speeds [m/s]"),
+            largest_bracketed_difference=maybe("between scipy's zeros and these"),
+            bikestab_version=words("that wrote it"), config_sha256=words("what is computed, as a hash"),
+            sweep=named(some(NUMBERS, "values"), "the sweep's axes"), axes=named(_AXIS, "the grid's"),
+            machines=some(_MACHINE, "those of a sweep; one of an ensemble alone; else empty"),
+            warnings=some(TEXTS, "what no rigid body can have"),
+        )
+    ),
+    "bicycles": answer(
+        {
+            "type": "object", "description": "a bicycle: its parameters in the paper's notation, in SI units",
+            "properties": {"name": TEXTS, "source": TEXTS, "warnings": some(TEXTS,
+            "what no rigid body can have")},
+            "additionalProperties": maybe(""), "required": ["name", "source", "warnings"],
+        }
+    ),
+    "certify": {
+        **record(
+            "a proof; one object without results", ("files",), bicycle=words("its name"), model=MODEL,
+            delta=num("steering damping [kg m²/s]"), box=named(_PAIR, "the ends of what varies"),
+            cells=some({"type": "integer"}, "along each"),
+            verdict={"enum": ["stable", "unstable", "mixed", "undecided"], "description": "of the whole box"},
+            proved_stable=num("fraction of the box"), proved_unstable=num("fraction"),
+            undecided=num("fraction"),
+            counterexample={"type": ["object", "null"], "description": "a point that is not as the rest"},
+        ),
+    },
+}  # fmt: skip
+__all__ = ["KIND", "SCHEMAS"]
