@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from bikestab.algebra import Polynomial, Ratio, common_denominator
 from bikestab.bicycle import Bicycle
 from bikestab.letters import PARAMETERS, Model, letters
-from bikestab.model import entries_of
+from bikestab.model import Coefficients, coefficients_of, entries_of
 from bikestab.notation import reduced
 
 DESIGN = ("sin", "cos", "sigma")
@@ -33,6 +33,17 @@ def table_formulas(bicycle: Bicycle, varied: Sequence[str] = (), *, model: Model
     Variables are sin λ, cos λ, σ and the parameters ``varied``, of the notation that the bicycle is given in.
     The formulas are those of ``exact_table``: nothing is written twice.
     """
+    entries = entries_of(_letters(bicycle, varied, model))
+    below = common_denominator(entries.values())
+    return Formulas((*DESIGN, *varied), {place: entry.over(below) for place, entry in entries.items()}, below)
+
+
+def coefficient_formulas(bicycle: Bicycle, *, model: Model = "refined") -> Coefficients:
+    """The coefficients of equations (1.5) as polynomials in sin λ, cos λ and σ."""
+    return Coefficients(*(term.over({}) for term in coefficients_of(_letters(bicycle, (), model))))
+
+
+def _letters(bicycle: Bicycle, varied: Sequence[str], model: Model) -> SimpleNamespace:
     variables = (*DESIGN, *varied)
     number = len(variables)
 
@@ -50,7 +61,4 @@ def table_formulas(bicycle: Bicycle, varied: Sequence[str] = (), *, model: Model
         if not p[f"C{i}"].top:  # what never spins may be a skate, without a radius
             p[f"R{i}"] = constant(1)
     parts = SimpleNamespace(**p, ahead=p["l2"] - p["c"])
-    n = letters(parts, symbols["sin"], symbols["cos"], symbols["sigma"], model)
-    entries = entries_of(n)
-    below = common_denominator(entries.values())
-    return Formulas(variables, {place: entry.over(below) for place, entry in entries.items()}, below)
+    return letters(parts, symbols["sin"], symbols["cos"], symbols["sigma"], model)

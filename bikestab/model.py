@@ -32,19 +32,19 @@ _POOR_DOUBLE = 2.0**-12  # the same in double precision
 class Coefficients(NamedTuple):
     """Coefficients of the equations of motion (1.5), without the damping term c δ/V of b1."""
 
-    a0: Twofold
-    a1: Twofold
-    a2: Twofold
-    a3: Twofold
-    a4: Twofold
-    a5: Twofold
-    b0: Twofold
-    b1: Twofold
-    b2: Twofold
-    b3: Twofold
-    b4: Twofold
-    b5: Twofold
-    b6: Twofold
+    a0: Any
+    a1: Any
+    a2: Any
+    a3: Any
+    a4: Any
+    a5: Any
+    b0: Any
+    b1: Any
+    b2: Any
+    b3: Any
+    b4: Any
+    b5: Any
+    b6: Any
 
 
 class ExactTable(NamedTuple):
@@ -148,7 +148,11 @@ def coefficients(
     ``model="unrefined"`` leaves the refinement of the paper's (1.2) out of the gravity terms.
     Source: (1.3), (1.5) and section 2 of the paper, with the OCR's subscripts repaired.
     """
-    n = letters_of(bicycle, lam, sigma, model)
+    return coefficients_of(letters_of(bicycle, lam, sigma, model))
+
+
+def coefficients_of(n: SimpleNamespace) -> Coefficients:
+    """``coefficients`` of letters that are numbers of any kind."""
     c = n.c
     return Coefficients(
         a0=c * n.J1,

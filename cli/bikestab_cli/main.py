@@ -17,8 +17,8 @@ from bikestab.errors import BikestabError, InputError, ScanError, nearest
 from bikestab.files import NOT_THERE
 
 COMMANDS = (
-    "scan", "vrange", "sensitivity", "eigen", "design", "slice", "export", "reproduce", "certify", "check",
-    "compare", "info", "bicycles", "convert", "init", "schema", "completion",
+    "scan", "vrange", "sensitivity", "eigen", "design", "slice", "export", "report", "reproduce", "certify",
+    "check", "compare", "info", "bicycles", "convert", "init", "schema", "completion",
 )  # fmt: skip
 COMPLETE = "_BIKESTAB_COMPLETE"  # set by a shell that wants words
 LEAST_MEMORY = 512 << 20

@@ -1,0 +1,1 @@
+"""One interactive page of volumes, for a browser without any network."""

@@ -1,0 +1,86 @@
+"""(bicycle, model) → what the page computes from: its table and its motion as exact formulas.
+
+Coefficients go over as two doubles each, nearest to the exact fractions.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bikestab.algebra import Polynomial
+from bikestab.bicycle import Bicycle
+from bikestab.formulas import coefficient_formulas, table_formulas
+from bikestab.letters import Model
+from bikestab.presets import preset_names
+
+Formula = list[list[float]]
+_SPEEDS = 4  # powers of V in the table
+
+
+def machine_record(bicycle: Bicycle, model: Model) -> dict[str, Any]:
+    """A machine as page/table.js takes it: formulas are lists of (powers of sin λ, cos λ, σ, value, rest)."""
+    table = table_formulas(bicycle, model=model).entries
+    return {
+        "name": bicycle.name,
+        "source": bicycle.source,
+        "command": command_options(bicycle, model),
+        "table": [[_formula(table.get((k, j))) for j in range(_SPEEDS)] for k in range(5)],
+        "motion": _motion(bicycle, model),
+        "own": None if bicycle.lam is None or bicycle.sigma is None else [bicycle.lam, bicycle.sigma],
+        "delta": bicycle.delta,
+        "parameters": bicycle.numbers(),
+        "c": bicycle.c,
+        "R1": bicycle.R1,
+        "R2": bicycle.R2,
+        "parts": [
+            {"m": bicycle.m1, "l": bicycle.l1, "h": bicycle.h1},
+            {"m": bicycle.m2, "l": bicycle.l2, "h": bicycle.h2},
+        ],
+    }
+
+
+def command_options(bicycle: Bicycle, model: Model) -> str:
+    """The options of the command line that mean this machine: a preset, or every number of it."""
+    options = []
+    own = bicycle.numbers()
+    if bicycle.name in preset_names() and _alike(Bicycle.preset(bicycle.name), bicycle):
+        options.append(f"--bicycle {bicycle.name}")
+        if own["delta"] != Bicycle.preset(bicycle.name).delta:
+            options.append(f"--delta {own['delta']!r}")
+    else:
+        options += [f"--set {name}={value!r}" for name, value in own.items() if value is not None]
+    if model != "refined":
+        options.append(f"--model {model}")
+    return " ".join(options)
+
+
+def _alike(one: Bicycle, other: Bicycle) -> bool:
+    """Whether two bicycles are the same but for the damping."""
+    return {**one.numbers(), "delta": 0} == {**other.numbers(), "delta": 0}
+
+
+def _motion(bicycle: Bicycle, model: Model) -> dict[str, list[list[Formula]]]:
+    """M q'' + (C0 + V C1) q' + (K0 + V² K2) q = 0 with q = (roll, steer), each times the wheelbase.
+
+    The signs are those of Meijaard et al. (2007), equation (5.3); the entries are those of (1.5).
+    """
+    n = coefficient_formulas(bicycle, model=model)
+    zero = Polynomial(n.a0.number, {})
+    damping = Polynomial.constant(n.a0.number, bicycle.c * bicycle.delta)
+    matrices = {
+        "M": ((n.a0, n.a2), (n.b4, n.b0)),
+        "C0": ((zero, zero), (zero, damping)),
+        "C1": ((zero, n.a3), (-n.b5, n.b1)),
+        "K0": ((-n.a1, -n.a4), (-n.b6, -n.b3)),
+        "K2": ((zero, n.a5), (zero, n.b2)),
+    }
+    return {name: [[_formula(entry) for entry in row] for row in matrix] for name, matrix in matrices.items()}
+
+
+def _formula(polynomial: Polynomial | None) -> Formula:
+    terms = sorted(polynomial.terms.items()) if polynomial else []
+    rows = []
+    for powers, coefficient in terms:
+        value = float(coefficient)
+        rows.append([*powers[:3], value, float(coefficient - type(coefficient)(value))])
+    return rows

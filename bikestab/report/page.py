@@ -1,0 +1,74 @@
+"""Volumes → one HTML file with everything in it: numbers, drawing library, our own scripts and styles."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from bikestab import __version__
+from bikestab.errors import InputError
+from bikestab.files import written
+from bikestab.report.volumes import volume_record
+from bikestab.volume import Volume
+
+_MODULES = (
+    "twofold", "table", "roots", "intervals", "eigenvalues", "modes", "motion", "geometry", "drawings",
+    "charts", "page",
+)  # fmt: skip
+_IMPORT = re.compile(r'from "\./([a-z]+)\.mjs"')
+CITE = (
+    "E. D. Dikarev, S. B. Dikareva and N. A. Fufaev, Effect of inclination of steering axis and of stagger "
+    "of the front wheel on stability of motion of a bicycle, Mechanics of Solids 16 (1981)"
+)
+
+
+def save_page(volumes: Sequence[Volume], path: str | Path) -> int:
+    """Write the page of one or more volumes; its size in bytes.
+
+    Raises InputError without the extra ``report``, as ``volume_record``, and as ``files.written``.
+    """
+    text = page_text([volume_record(volume) for volume in volumes])
+    with written(Path(path)) as part:
+        part.write_text(text, encoding="utf-8", newline="\n")
+    return len(text.encode())
+
+
+def page_text(records: Sequence[dict[str, Any]]) -> str:
+    """The page of records as ``volume_record`` makes them."""
+    about = {"version": __version__, "cite": CITE, "volumes": list(records)}
+    parts = {
+        "TITLE": _escaped(" · ".join(record["title"] for record in records)),
+        "STYLE": _file("page.css"),
+        "LIBRARY": _plotly(),
+        "MODULES": json.dumps({"imports": {f"bikestab/{name}": _module(name) for name in _MODULES}}),
+        "DATA": json.dumps(about, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
+    }
+    return re.sub(r"\{\{([A-Z]+)\}\}", lambda found: parts[found[1]], _file("page.html"))
+
+
+def _file(name: str) -> str:
+    return resources.files("bikestab.report").joinpath("page", name).read_text(encoding="utf-8")
+
+
+def _module(name: str) -> str:
+    """A script as an address of its own, for an import map: nothing is fetched."""
+    text = _IMPORT.sub(r'from "bikestab/\1"', _file(f"{name}.mjs"))
+    return "data:text/javascript;base64," + base64.b64encode(text.encode()).decode()
+
+
+def _plotly() -> str:
+    try:
+        from plotly.offline import get_plotlyjs
+    except ImportError:
+        hint = 'it needs the extra: pip install "bikestab[report]"'
+        raise InputError("a page cannot be made without plotly", hint=hint) from None
+    return str(get_plotlyjs())
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

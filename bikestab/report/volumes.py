@@ -1,0 +1,134 @@
+"""A volume → what the page shows of it: axes, machines, and for each its plane, curves and surface."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from io import BytesIO
+from itertools import product
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from bikestab.errors import InputError
+from bikestab.family import Family
+from bikestab.fields import AXES
+from bikestab.model import Floats
+from bikestab.plot.lines import legend_below
+from bikestab.plot.region import draw_mesh
+from bikestab.plot.settings import own_settings
+from bikestab.region.curves import trace
+from bikestab.region.mesh import Mesh, region_mesh
+from bikestab.report.machines import machine_record
+from bikestab.speeds import intervals_of
+from bikestab.volume import Volume, check_ranges
+
+if TYPE_CHECKING:
+    from mpl_toolkits.mplot3d import Axes3D
+
+Box = dict[str, list[float]]  # ends of λ [rad], σ and V [m/s]
+MOST_MACHINES = 24  # of a sweep: each brings some 100 kB
+_PLANE = 81  # designs per axis of the coloured plane
+_CELLS = 36  # of the surface, per axis
+_STEPS = 65535  # of a surface's coordinates, in the box
+_CURVE = 121  # points of a curve, at most
+
+
+def volume_record(volume: Volume) -> dict[str, Any]:
+    """What page/page.js takes. Raises InputError for one value of an axis, and for too many machines."""
+    check_ranges(volume, AXES, "a page")
+    machines = list(product(*(values.tolist() for values in volume.swept.values())))
+    if len(machines) > MOST_MACHINES:
+        problem = f"has a sweep of {len(machines)} machines, and a page shows {MOST_MACHINES} at most"
+        raise InputError(problem, place=str(volume.path), hint="sweep fewer values")
+    every = [volume.at(dict(zip(volume.swept, values, strict=True))) for values in machines]
+    box: Box = {name: [float(volume.axis(name)[0]), float(volume.axis(name)[-1])] for name in AXES}
+    return {
+        "title": volume.text("title"),
+        "model": volume.model,
+        "box": box,
+        "sweep": [
+            {"name": name, "unit": _unit(volume, name), "values": values.tolist()}
+            for name, values in volume.swept.items()
+        ],
+        "warnings": [line for line in volume.text("warnings").split("\n") if line],
+        "version": volume.text("bikestab_version"),
+        "machines": [_machine(one, box) for one in every],
+    }
+
+
+def _unit(volume: Volume, name: str) -> str:
+    unit = volume.file[name].attrs.get("units", b"")
+    return unit.decode() if isinstance(unit, bytes) else str(unit)
+
+
+def _machine(volume: Volume, box: Box) -> dict[str, Any]:
+    family = Family(volume.bicycle, volume.model)
+    lam, sigma, V = ((low, high) for low, high in box.values())
+    mesh = region_mesh(family, lam, sigma, V, cells=_CELLS)
+    return {
+        **machine_record(volume.bicycle, volume.model),
+        "plane": _plane(family, lam, sigma, V),
+        "curves": _curves(family, lam, sigma, V),
+        "mesh": _mesh(mesh, np.array([lam, sigma, V])),
+        "picture": _picture(mesh, [lam, sigma, V]),
+    }
+
+
+def _mesh(mesh: Mesh, box: Floats) -> dict[str, Any]:
+    """The surface, its points in 65536 steps of the box along each axis: to be looked at."""
+    low, high = box.T
+    steps = np.rint((mesh.points - low) / (high - low) * _STEPS)
+    return {
+        "points": _bytes(np.clip(steps, 0, _STEPS), "<u2"),
+        "triangles": _bytes(mesh.triangles, "<u4"),
+        "kind": _bytes(mesh.kind, "u1"),
+    }
+
+
+@own_settings()
+def _picture(mesh: Mesh, box: Sequence[tuple[float, float]]) -> str:
+    """The same surface as a picture, for browsers that draw no three dimensions."""
+    figure = Figure(figsize=(6.4, 5.6), layout="constrained")
+    ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
+    if handles := draw_mesh(ax, mesh, box):
+        legend_below(figure, handles, ncols=2, handlelength=2)
+    file = BytesIO()
+    figure.savefig(file, format="png", dpi=72)
+    return base64.b64encode(file.getvalue()).decode()
+
+
+def _plane(
+    family: Family, lam: tuple[float, float], sigma: tuple[float, float], V: tuple[float, float]
+) -> Any:
+    """The speeds in the box at which each design is stable, added up [m/s]; rows are of σ."""
+    x, y = np.linspace(*lam, _PLANE), np.linspace(*sigma, _PLANE)
+    found = intervals_of(family.table(x, y[:, np.newaxis]))
+    within = np.clip(found.V2, *V) - np.clip(found.V1, *V)
+    return {
+        "lam": x.tolist(),
+        "sigma": y.tolist(),
+        "width": _bytes(np.nansum(within, axis=-1), "<f4"),
+    }
+
+
+def _curves(
+    family: Family, lam: tuple[float, float], sigma: tuple[float, float], V: tuple[float, float]
+) -> list[dict[str, Any]]:
+    """The curves at which intervals appear, vanish or change, with at most ``_CURVE`` points each."""
+
+    def some(values: Floats) -> list[float]:
+        chosen = np.unique(np.linspace(0, len(values) - 1, _CURVE).round().astype(int))
+        return np.asarray(values[chosen], float).round(7).tolist()
+
+    return [
+        {"name": curve.name, "lam": some(curve.x), "sigma": some(curve.y)}
+        for curve in trace(family, lam, sigma, V)
+    ]
+
+
+def _bytes(values: ArrayLike, dtype: str) -> str:
+    """Numbers as base64 of little-endian bytes, row by row."""
+    return base64.b64encode(np.ascontiguousarray(values, dtype).tobytes()).decode()

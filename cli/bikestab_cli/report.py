@@ -1,0 +1,39 @@
+"""bikestab report: volumes → one interactive page."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+
+import click
+from bikestab_cli.options import FILE, NAME, check_files
+from bikestab_cli.output import tell_file
+
+
+@click.command("report")
+@click.argument("volumes", type=NAME, nargs=-1, required=True, metavar="VOLUME...")
+@click.option(
+    "-o", "--output", type=FILE, metavar="FILE", default="report.html", show_default=True, help="The page."
+)
+def command(volumes: tuple[str, ...], output: str) -> None:
+    """Write one interactive page that needs no network.
+
+    The page is one HTML file to be mailed, opened in class or put beside a paper. It shows the stable
+    region to be turned, and for any tilt, trail and speed that are chosen the stable speeds, the
+    eigenvalues, the machine to scale and its motion after a push, all computed in the page from
+    the machine's equations. Several volumes are tabs of one page, and its table compares them; the axes of a
+    sweep are sliders.
+
+    Each VOLUME is a volume.h5 or its folder. Needs the extra: pip install "bikestab[report]".
+
+    \b
+    Examples:
+      bikestab report out/quick -o report.html
+      bikestab report out/dikarev1981 out/meijaard2007 -o compare.html
+    """
+    from bikestab.report.page import save_page
+    from bikestab.volume import Volume
+
+    check_files(output)
+    with ExitStack() as opened:
+        size = save_page([opened.enter_context(Volume(volume)) for volume in volumes], output)
+    tell_file(output, f"{size / 1e6:.1f} MB, opens in any browser")

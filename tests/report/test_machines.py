@@ -1,0 +1,74 @@
+"""What goes over to the page: exact formulas of the table and of the motion."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import bikestab as bs
+from bikestab.model import canonical_matrices, characteristic_table
+from bikestab.presets import preset_names
+from bikestab.report.machines import command_options, machine_record
+
+DESIGNS = [(0.0, 0.0), (0.2, 0.08), (0.31, 0.0784), (-0.3, -0.1), (1.2, 0.3)]
+
+
+def value(formula, lam, sigma):
+    """A formula in fractions, with the doubles that sine and cosine are."""
+    sin, cos = Fraction(float(np.sin(lam))), Fraction(float(np.cos(lam)))
+    total = Fraction(0)
+    for i, j, k, first, rest in formula:
+        total += (Fraction(first) + Fraction(rest)) * sin**i * cos**j * Fraction(sigma) ** k
+    return float(total)
+
+
+@pytest.mark.parametrize("name", preset_names())
+@pytest.mark.parametrize("model", ["refined", "unrefined"])
+def test_formulas_give_the_table(name, model):
+    bicycle = bs.Bicycle.preset(name)
+    record = machine_record(bicycle, model)
+    for lam, sigma in DESIGNS:
+        table = characteristic_table(bicycle, lam, sigma, model=model)
+        mine = np.array([[value(entry, lam, sigma) for entry in row] for row in record["table"]])
+        assert mine == pytest.approx(table, rel=1e-12, abs=1e-12 * np.abs(table).max())
+
+
+@pytest.mark.parametrize("name", preset_names())
+def test_formulas_of_the_motion_are_the_matrices_of_the_benchmark_paper(name):
+    bicycle = bs.Bicycle.preset(name)
+    motion = machine_record(bicycle, "refined")["motion"]
+    for lam, sigma in DESIGNS:
+        mine = {
+            key: np.array([[value(entry, lam, sigma) for entry in row] for row in matrix]) / bicycle.c
+            for key, matrix in motion.items()
+        }
+        M, C1, K0, K2 = canonical_matrices(bicycle, lam, sigma)
+        for key, right in zip(("M", "C1", "K0", "K2"), (M, C1, bicycle.g * K0, K2), strict=True):
+            assert mine[key] == pytest.approx(right, rel=1e-12, abs=1e-12 * np.abs(right).max()), key
+        assert mine["C0"] == pytest.approx(np.array([[0, 0], [0, bicycle.delta]]))
+
+
+@pytest.mark.parametrize("name", preset_names())
+def test_the_motion_has_the_eigenvalues_of_the_table(name):
+    bicycle = bs.Bicycle.preset(name)
+    motion = machine_record(bicycle, "refined")["motion"]
+    for lam, sigma in ((0.2, 0.08), (0.31, 0.0784), (1.2, 0.3)):
+        for V in (0.5, 5.0, 20.0):
+            M, C0, C1, K0, K2 = (
+                np.array([[value(entry, lam, sigma) for entry in row] for row in motion[key]])
+                for key in ("M", "C0", "C1", "K0", "K2")
+            )
+            lower = [-np.linalg.solve(M, K0 + V * V * K2), -np.linalg.solve(M, C0 + V * C1)]
+            A = np.block([[np.zeros((2, 2)), np.eye(2)], lower])
+            mine = np.poly(np.linalg.eigvals(A))
+            right = np.poly(bs.eigenvalues(bicycle, V, lam=lam, sigma=sigma))
+            assert mine == pytest.approx(right.real, rel=1e-8, abs=1e-8 * np.abs(right).max())
+
+
+def test_the_command_of_a_preset_names_it_and_its_damping():
+    bicycle = bs.Bicycle.preset("meijaard2007")
+    assert command_options(bicycle, "refined") == "--bicycle meijaard2007"
+    assert (
+        command_options(bicycle.with_delta(1.5), "unrefined")
+        == "--bicycle meijaard2007 --delta 1.5 --model unrefined"
+    )

@@ -1,0 +1,242 @@
+"""The page as a person meets it, and its numbers beside Python's."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import subprocess
+import sys
+from itertools import permutations
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bikestab as bs
+from bikestab.kinds import KINDS
+
+BENCHMARK = bs.Bicycle.preset("meijaard2007")
+PAPER = bs.Bicycle.preset("dikarev1981")
+
+
+def apart(one, other):
+    """Largest distance between two sets of four eigenvalues (4, n), in units of the largest."""
+    size = np.abs(other).max(axis=0)
+    orders = [np.abs(one[list(order)] - other).max(axis=0) for order in permutations(range(4))]
+    return np.min(orders, axis=0) / size
+
+
+def eigenvalues_in(page, lam, sigma, V):
+    found = page.evaluate(
+        "many => many.map(([lam, sigma, V]) => bikestab.eigenvalues(lam, sigma, V))",
+        np.column_stack([lam, sigma, V]).tolist(),
+    )
+    return (np.array(found) @ [1, 1j]).T
+
+
+def set_slider(page, name, value):
+    page.evaluate(
+        "([name, value]) => { const e = document.getElementById(name); e.value = value;"
+        " e.dispatchEvent(new Event('input', { bubbles: true })); }",
+        [name, str(value)],
+    )
+    drawn(page)
+
+
+def drawn(page):
+    """Wait until what was chosen is shown."""
+    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def test_eigenvalues_are_those_of_python(opened):
+    rng = np.random.default_rng(18)
+    n = 10_000
+    lam, sigma, V = rng.uniform(-0.4, 1.2, n), rng.uniform(-0.3, 0.5, n), rng.uniform(0, 30, n)
+    mine = eigenvalues_in(opened(), lam, sigma, V)
+    assert apart(mine, bs.eigenvalues(BENCHMARK, V, lam=lam, sigma=sigma)).max() < 1e-9
+
+
+def test_eigenvalues_that_meet_are_those_of_python(opened, volumes):
+    with bs.open_volume(volumes[0]) as volume:
+        bicycle = volume.bicycle  # its two parts are doubles, which a double root tells from the 25 numbers
+    designs = [(lam, sigma) for lam in (0.1, 0.2, 0.35) for sigma in (0.02, 0.08, 0.15)]
+    lam, sigma, V = np.array(
+        [
+            (*design, speed)
+            for design in designs
+            for speed in bs.modes(bicycle, [1.0], lam=design[0], sigma=design[1]).coalescences
+        ]
+    ).T
+    assert len(V) > 9
+    mine = eigenvalues_in(opened(), lam, sigma, V)
+    assert apart(mine, bs.eigenvalues(bicycle, V, lam=lam, sigma=sigma)).max() < 1e-9
+
+
+@pytest.mark.parametrize("which", [0, 1, 2])
+def test_intervals_are_those_of_python(opened, which):
+    page = opened("all")
+    page.locator("#tabs button").nth(which).click()
+    bicycle = [BENCHMARK, PAPER, BENCHMARK.with_delta(2)][which]
+    if which == 2:
+        set_slider(page, "sweep-delta", 1)
+    rng = np.random.default_rng(which)
+    lam, sigma = rng.uniform(-0.1, 0.6, 700), rng.uniform(-0.05, 0.4, 700)
+    found = page.evaluate(
+        "many => many.map(([lam, sigma]) => bikestab.intervals(lam, sigma))",
+        np.column_stack([lam, sigma]).tolist(),
+    )
+    right = bs.stable_intervals(bicycle, lam=lam, sigma=sigma)
+    assert [len(each) for each in found] == right.number.tolist()
+    for i, each in enumerate(found):
+        for k, one in enumerate(each):
+            assert one["V1"] == pytest.approx(right.V1[i, k], rel=1e-12)
+            assert (one["V2"] or np.inf) == pytest.approx(right.V2[i, k], rel=1e-12)
+            assert [one["lower"], one["upper"]] == [KINDS[right.lower[i, k]], KINDS[right.upper[i, k]]]
+
+
+def test_modes_have_the_names_of_python(opened):
+    page = opened()
+    V = np.linspace(0.05, 12, 240)
+    wrong = total = 0
+    for lam, sigma in [(BENCHMARK.lam, BENCHMARK.sigma), (0.2, 0.05), (0.4, 0.15), (0.1, 0.02), (0.5, 0.2)]:
+        found = page.evaluate("([lam, sigma, V]) => bikestab.modes(lam, sigma, V)", [lam, sigma, V.tolist()])
+        mine = np.array(found["s"]) @ [1, 1j]
+        right = bs.modes(BENCHMARK, V, lam=lam, sigma=sigma)
+        for i in range(len(V)):
+            order = min(
+                permutations(range(4)), key=lambda o: np.abs(mine[list(o), i] - right.eigenvalues[:, i]).max()
+            )
+            total += 4
+            wrong += sum(found["names"][b][i] != right.names[k, i] for k, b in enumerate(order))
+    assert total == 4800
+    assert wrong <= 20, wrong  # within a step of where two meet
+
+
+def test_sliders_numbers_and_words_agree(opened):
+    page = opened()
+    text = page.inner_text("#intervals")
+    assert "4.292 m/s (weave) to 6.024 m/s (capsize)" in text
+    set_slider(page, "lam", 0.05)
+    assert page.inner_text("#intervals") == "no stable speed"
+    assert page.input_value("#head-angle") == f"{90 - np.degrees(0.05):.2f}"
+    page.fill("#head-angle", "71")
+    page.press("#head-angle", "Tab")
+    assert float(page.input_value("#lam")) == pytest.approx(np.radians(19))
+    page.fill("#offset", "45")
+    page.press("#offset", "Tab")
+    lam = np.radians(19)
+    trail = (0.35 * np.sin(lam) - 0.045) / np.cos(lam)
+    assert float(page.input_value("#sigma")) == pytest.approx(trail / 1.02, abs=1e-12)
+    drawn(page)
+    assert "stable" in page.get_attribute("#modes", "aria-label")
+    command = shlex.split(page.inner_text("#command code"))
+    assert float(command[command.index("--lam") + 1]) == pytest.approx(lam, abs=1e-12)
+
+
+def test_a_click_on_the_plane_chooses_a_design(opened):
+    page = opened()
+    box = page.locator("#plane .nsewdrag").first.bounding_box()
+    page.mouse.click(box["x"] + 0.75 * box["width"], box["y"] + 0.25 * box["height"])
+    low, high = 0.0, float(page.get_attribute("#lam", "max"))
+    assert float(page.input_value("#lam")) == pytest.approx(low + 0.75 * (high - low), abs=0.01)
+
+
+def test_the_copied_command_says_the_same_as_the_page(opened):
+    page = opened("all")
+    for which in (0, 1, 2):
+        page.locator("#tabs button").nth(which).click()
+        command = shlex.split(page.inner_text("#command code"))
+        done = subprocess.run(
+            [sys.executable, "-m", *command, "--json"], capture_output=True, text=True, check=True
+        )
+        right = json.loads(done.stdout)["results"][0]
+        found = page.evaluate(
+            "([lam, sigma]) => bikestab.intervals(lam, sigma)", [right["lam"], right["sigma"]]
+        )
+        assert len(found) == len(right["intervals"])
+        for one, other in zip(found, right["intervals"], strict=True):
+            assert one["V1"] == pytest.approx(other["V1"], rel=1e-12)
+
+
+def test_one_table_compares_all_machines(opened):
+    page = opened("all")
+    rows = page.locator("#compare tbody tr").all_inner_texts()
+    assert len(rows) == 4
+    assert "delta = 2" in rows[3]
+    assert "from 4.292 m/s" in rows[0]
+
+
+def test_a_page_where_nothing_draws_three_dimensions_shows_a_picture(opened, pages, chromium):
+    context = chromium.new_context(offline=True)
+    page = context.new_page()
+    page.add_init_script(
+        "HTMLCanvasElement.prototype.getContext = new Proxy("
+        "HTMLCanvasElement.prototype.getContext, { apply: (f, self, [kind, ...rest]) =>"
+        " /webgl/.test(kind) ? null : Reflect.apply(f, self, [kind, ...rest]) })"
+    )
+    page.goto(f"file://{pages}/one.html")
+    page.evaluate("async () => { await window.bikestab.ready; }")
+    assert page.locator("#region-picture").evaluate("e => e.complete && e.naturalWidth") > 300
+    set_slider(page, "lam", 0.2)
+    context.close()
+
+
+def test_the_file_is_small_enough_to_be_mailed(pages):
+    for path in pages.glob("*.html"):
+        assert path.stat().st_size <= 6_000_000
+
+
+AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
+
+
+@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not there: npm install in tests/report")
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1400, 360])
+def test_axe_finds_no_violation(opened, scheme, width):
+    page = opened("all", color_scheme=scheme, viewport={"width": width, "height": 800})
+    page.add_script_tag(path=AXE)
+    found = page.evaluate("axe.run(document)")["violations"]
+    assert [(each["id"], [node["html"][:120] for node in each["nodes"]]) for each in found] == []
+
+
+def test_a_phone_scrolls_in_one_direction_only(opened):
+    page = opened("all", viewport={"width": 360, "height": 780})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert page.evaluate("matchMedia('(prefers-reduced-motion: no-preference)').matches")
+
+
+def test_it_prints_on_two_sheets_of_a4(opened, tmp_path):
+    page = opened()
+    pdf = page.pdf(prefer_css_page_size=True)
+    assert 1 <= pdf.count(b"/Type /Page\n") + pdf.count(b"/Type /Page ") + pdf.count(b"/Type/Page") <= 4
+    page.emulate_media(media="print")
+    assert not page.locator("#play").is_visible()
+    assert page.evaluate("getComputedStyle(document.body).color") == "rgb(0, 0, 0)"
+
+
+def test_play_moves_the_machine_and_pauses(opened):
+    page = opened()
+    first = page.locator("#rear").inner_html()
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_timeout(400)
+    page.get_by_role("button", name="Pause").click()
+    stopped = page.locator("#rear").inner_html()
+    assert stopped != first
+    page.wait_for_timeout(200)
+    assert page.locator("#rear").inner_html() == stopped
+
+
+def test_the_keyboard_reaches_and_moves_the_sliders(opened):
+    page = opened()
+    before = float(page.input_value("#V"))
+    page.locator("#V").focus()
+    page.keyboard.press("ArrowRight")
+    assert float(page.input_value("#V")) > before
+
+
+def test_a_picture_is_saved(opened):
+    page = opened()
+    for name in ("PNG", "SVG"):
+        with page.expect_download() as download:
+            page.get_by_role("button", name=f"Save {name}").click()
+        assert download.value.suggested_filename.endswith(name.lower())
