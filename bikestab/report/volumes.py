@@ -37,7 +37,14 @@ _CURVE = 121  # points of a curve, at most
 
 
 def volume_record(volume: Volume) -> dict[str, Any]:
-    """What page/page.js takes. Raises InputError for one value of an axis, and for too many machines."""
+    """What page/page.mjs takes.
+
+    Raises InputError for a grid over other parameters than tilt and trail, for one value of an axis, and for
+    too many machines.
+    """
+    if volume.axes != AXES:
+        problem = f"has a grid over {volume.axes[0]} and {volume.axes[1]}, and a page is of tilt and trail"
+        raise InputError(problem, place=str(volume.path), hint="scan over lam and sigma")
     check_ranges(volume, AXES, "a page")
     machines = list(product(*(values.tolist() for values in volume.swept.values())))
     if len(machines) > MOST_MACHINES:
@@ -65,7 +72,7 @@ def _unit(volume: Volume, name: str) -> str:
 
 
 def _machine(volume: Volume, box: Box) -> dict[str, Any]:
-    family = Family(volume.bicycle, volume.model)
+    family = volume.family
     lam, sigma, V = ((low, high) for low, high in box.values())
     mesh = region_mesh(family, lam, sigma, V, cells=_CELLS)
     return {

@@ -28,7 +28,7 @@ def command(volumes: tuple[str, ...], output: str) -> None:
     \b
     Examples:
       bikestab report out/quick -o report.html
-      bikestab report out/dikarev1981 out/meijaard2007 -o compare.html
+      bikestab report out/quick out/quick/volume.h5 -o twice.html
     """
     from bikestab.report.page import save_page
     from bikestab.volume import Volume

@@ -37,11 +37,12 @@ if TYPE_CHECKING:
     metavar="ADDRESS",
     help="Compute on a Dask cluster: tcp://HOST:PORT, or local:N processes. Needs the extra 'cluster'.",
 )
+@click.option("--report", is_flag=True, help="Write report.html, an interactive page, beside the pictures.")
 @click.option("--quiet", is_flag=True, help="Tell nothing of the progress.")
 @json_option
 def command(
     configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, jobs: int | None,
-    scheduler: str | None, quiet: bool, as_json: bool,
+    scheduler: str | None, report: bool, quiet: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Evaluate grids; write volumes and pictures.
 
@@ -72,7 +73,8 @@ def command(
             start = time.perf_counter()
             with of_file(name):
                 result, pictures = _run(name, config, force, jobs, scheduler or "", quiet)
-            done.append(_summary(name, config, result, pictures))
+                page = _page(result.path) if report else None
+            done.append({**_summary(name, config, result, pictures), **({"report": page} if page else {})})
             if not as_json:
                 click.echo(_line(name, result, pictures, time.perf_counter() - start))
     finally:
@@ -115,6 +117,18 @@ def _run(
                 hint = f"{name}: what is finished is kept; the same command goes on from there"
         raise KeyboardInterrupt(hint) from None
     return result, draw_pictures(config, result.path, partial(click.echo, err=True))
+
+
+def _page(volume: Path) -> str:
+    """Write the page of a volume beside it; its path."""
+    from bikestab.report.page import save_page
+    from bikestab.volume import Volume
+
+    path = volume.with_name("report.html")
+    with Volume(volume) as opened:
+        save_page([opened], path)
+    click.echo(f"{path}: opens in any browser", err=True)
+    return str(path)
 
 
 def _line(name: str, result: ScanResult, pictures: list[Path], seconds: float) -> str:

@@ -1,0 +1,48 @@
+"""The command that writes the page, and what it refuses."""
+
+from pathlib import Path
+
+import pytest
+
+import bikestab as bs
+
+SMALL = ["grid.lam.num=7", "grid.sigma.num=6", "grid.V.num=9", "slices=[]", "fields=[stable]"]
+CONFIG = Path("configs/quick.yaml").absolute()
+
+
+@pytest.fixture(scope="module")
+def volume(tmp_path_factory):
+    output = tmp_path_factory.mktemp("page") / "small"
+    bs.scan(CONFIG, [*SMALL, f"output={output}"])
+    return output
+
+
+def test_a_page_is_written_and_told(bikestab, volume):
+    code, out, _ = bikestab("report", volume)
+    assert code == 0
+    assert out.startswith("report.html: ")
+    text = Path("report.html").read_text("utf-8")
+    assert text.startswith("<!doctype html>")
+    assert 'id="lam"' in text
+
+
+def test_a_scan_writes_one_beside_its_pictures(bikestab):
+    sets = [part for text in (*SMALL, "output=here") for part in ("--set", text)]
+    code, out, _ = bikestab("scan", CONFIG, *sets, "--report", "--json")
+    assert code == 0
+    assert '"report": "here/report.html"' in out
+    assert Path("here/report.html").stat().st_size > 4_000_000
+
+
+def test_what_cannot_be_a_page_is_refused(bikestab, volume, tmp_path):
+    code, _, err = bikestab("report", "nowhere", "-o", "page.html")
+    assert code == 2
+    assert "nowhere: there is no such volume" in err
+    x, y = ("{name: m1, start: 60, stop: 90, num: 3}", "{name: delta, start: 0, stop: 1, num: 3}")
+    loads = f"grid={{x: {x}, y: {y}, V: {{start: 1, stop: 9, num: 3}}}}"
+    output = f"output={tmp_path / 'loads'}"
+    bs.scan(CONFIG, [loads, "slices=[]", "bicycle=meijaard2007", "expect=[]", output])
+    code, _, err = bikestab("report", tmp_path / "loads", "-o", "page.html")
+    assert code == 2
+    assert "has a grid over m1 and delta" in err
+    assert not Path("page.html").exists()
