@@ -86,7 +86,7 @@ class Atlas:
     def add(self, place: tuple[int, int], roots: Roots) -> None:
         """Take in the tile that begins at ``place``, an index of λ and one of σ."""
         for direction, V in zip(self._directions, directed(roots), strict=True):
-            direction.add(place, V)
+            direction.add(place, _plane(V))
 
     def finish(self) -> None:
         """Give each sheet its slot."""
@@ -98,7 +98,7 @@ class Atlas:
 
     def sheets(self, place: tuple[int, int], roots: Roots, intervals: Intervals) -> Sheets:
         """The sheets of a tile, and which of their roots are ends of its ``intervals``."""
-        shape = (*roots.V.shape[:2], self.width)
+        shape = (*roots.V.shape[:-1], self.width)
         out = Sheets(np.full(shape, np.nan), np.zeros(shape, np.uint8))
         ends = (intervals.V1, intervals.lower), (intervals.V2, intervals.upper)  # stability begins rising
         for k, V in enumerate(directed(roots)):
@@ -109,12 +109,17 @@ class Atlas:
                 for i, _ in slots if V.shape[-1] else ():
                     out.V[..., i], out.edge[..., i] = V[..., 0], edge[..., 0]
                 continue
-            slot = direction.slots(place, V)
+            slot = direction.slots(place, _plane(V)).reshape(V.shape)
             for i, number in slots:
                 at = slot == number
                 cell = at.any(axis=-1)
                 out.V[cell, i], out.edge[cell, i] = V[at], edge[at]
         return out
+
+
+def _plane(values: Floats) -> Floats:
+    """Without the axes of a sweep, of which a plane has one value."""
+    return values.reshape(values.shape[-3:])
 
 
 def directed(roots: Roots) -> tuple[Floats, Floats]:

@@ -163,6 +163,21 @@ def test_a_sweep_of_ensembles(spread, tmp_path):
         assert (file["probability"][0] != file["probability"][1]).any()
 
 
+def test_a_sweep_of_ensembles_of_several_tiles(tmp_path):
+    """A plane that is cut has the sheets of a scan of its machine alone."""
+    wide, more = ("num: 9", "num: 19"), ENSEMBLE.replace("40", "4")
+    both, one = (
+        parse_config(yamltext.parse(text.replace(*wide).replace("OUT", str(tmp_path / name)), "scan.yaml"))
+        for name, text in (
+            ("both", GRID.replace("BICYCLE", "meijaard2007") + "sweep: {mH: [3.9, 4.0]}\n" + more),
+            ("one", GRID.replace("BICYCLE", "meijaard2007") + more),
+        )
+    )
+    with h5py.File(run_scan(both).path) as file, h5py.File(run_scan(one).path) as alone:
+        for name in ("stable", "V1", "lower", "probability", "boundary/hurwitz3", "boundary/p0_edge"):
+            np.testing.assert_array_equal(file[name][1], alone[name][()], err_msg=name)
+
+
 def test_pictures_of_the_probability(spread, swept):
     with Volume(spread[0]) as volume:
         axes = draw_slice(volume, "sigma", 0.081, "probability").axes
