@@ -65,10 +65,6 @@ class ExactTable(NamedTuple):
         """The same in another shape."""
         return ExactTable(*(each.reshape(shape) for each in self))
 
-    def cells(self, chosen: Any) -> ExactTable:
-        """Some cells of a table (5, 4, cell)."""
-        return ExactTable(*(each[..., chosen] for each in self))
-
 
 def exact_table(
     bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, *, model: Model = "refined"

@@ -3,8 +3,13 @@
 import numpy as np
 import pytest
 
+import bikestab.critical
+import bikestab.isolation
+from bikestab.bicycle import Bicycle
 from bikestab.certain import signs, zeros_of
+from bikestab.corrected import zeros_between
 from bikestab.isolation import _sign_changes, _whole, brackets, isolated
+from bikestab.model import exact_table
 from bikestab.rounding import COEFFICIENT, CUT
 from bikestab.speeds import CAPSIZE, REST, UNBOUNDED, WEAVE, _Ends, _out_of_order
 from bikestab.twofold import Double, Twofold
@@ -42,6 +47,46 @@ def test_the_plain_pass_leaves_what_it_cannot_tell():
     near = polynomial(1.0, 1.0 + 2.0**-20)
     assert brackets(near, 1, COEFFICIENT)[1].all()
     assert zeros_of(near, 1).V[:, 0].tolist() == [1.0, 1.0 + 2.0**-20]
+
+
+def test_powers_that_no_cell_has_are_left_out_of_the_cuts():
+    """(x² − 1)(x² − 1 − 2^−20), which double precision does not part."""
+    apart = 2.0**-20
+    even = [None if a is None else Twofold(np.array([a])) for a in (1 + apart, None, -2 - apart, None, 1.0)]
+    found, sure = brackets(even, 1, COEFFICIENT)
+    assert sure.all()
+    low, high = (np.sort(ends) for ends in (found.low, found.high))
+    zeros = np.sqrt([1.0, 1 + apart])
+    assert np.all((low <= zeros) & (zeros <= high))
+    assert high[0] <= low[1]
+
+
+def test_what_cuts_do_not_end_is_undecided(monkeypatch):
+    near = polynomial(1.0, 1.0 + 2.0**-20)
+    monkeypatch.setattr(bikestab.isolation, "_DEPTH", 10)
+    assert not brackets(near, 1, COEFFICIENT)[1].any()
+
+
+@pytest.mark.parametrize("name", ["p1", "hurwitz3"])
+@pytest.mark.parametrize("preset", ["meijaard2007", "dikarev1981", "sharp1971"])
+def test_pairs_of_doubles_throughout_find_the_same_speeds(monkeypatch, preset, name):
+    """As what double precision isolates and one step corrects: they meet within both bounds."""
+    bicycle = Bicycle.preset(preset).with_delta(2.0)
+    lam, sigma = np.linspace(0.02, 0.5, 9), np.linspace(-0.02, 0.3, 7)[:, np.newaxis]
+    table = exact_table(bicycle, lam, sigma)
+    plain = bikestab.critical.critical(table, [name]).zeros[name]
+
+    def never_sure(*args):
+        zeros = zeros_between(*args)
+        return zeros._replace(sure=np.zeros_like(zeros.sure))
+
+    monkeypatch.setattr(bikestab.critical, "zeros_between", never_sure)
+    fine = bikestab.critical.critical(table, [name]).zeros[name]
+    assert fine.sure.all()
+    assert np.isfinite(fine.V).any()
+    np.testing.assert_array_equal(np.isfinite(plain.V), np.isfinite(fine.V))
+    apart = np.abs((plain.V - fine.V) + (plain.rest - fine.rest))
+    assert np.all(apart[np.isfinite(apart)] <= (plain.radius + fine.radius)[np.isfinite(apart)])
 
 
 def test_a_sign_is_certain_from_twice_the_error():

@@ -52,7 +52,7 @@ def _from_its_folder(bicycle_name: str, file: str | Path) -> str:
     """The same bicycle as a config in ``file`` names it, whatever folder that is read from."""
     if bicycle_name in preset_names():
         return bicycle_name
-    folder, path = Path(file).parent.resolve(), Path(bicycle_name).resolve()
+    folder, path = (Path(os.path.realpath(name)) for name in (Path(file).parent, bicycle_name))
     try:
         found = Path(os.path.relpath(path, folder)).as_posix()
     except ValueError:  # on another drive

@@ -8,6 +8,7 @@ import importlib
 import os
 import sys
 from contextlib import suppress
+from pathlib import Path
 
 import click
 from bikestab_cli.streams import LONGEST, cut, visible_streams
@@ -24,6 +25,8 @@ COMPLETE = "_BIKESTAB_COMPLETE"  # set by a shell that wants words
 LEAST_MEMORY = 512 << 20
 _NO_MEMORY = "failed to map segment"  # the loader's words for it
 DEVELOPER = "please report it, with what 'python -X dev -m bikestab ...' shows"
+
+NOWHERE = "the current folder was removed: go to one that is there"
 
 
 class _Lazy(click.Group):
@@ -82,8 +85,14 @@ def main(program: str = "bikestab") -> None:
             _drop_output()
         except OSError as error:
             _drop_output()
-            code = _tell(3, f"could not finish: {error.strerror or error}")
+            code = _tell(3, f"could not finish: {error.strerror or error}", "" if _somewhere() else NOWHERE)
     sys.exit(code)
+
+
+def _somewhere() -> bool:
+    with suppress(FileNotFoundError):
+        return bool(Path.cwd())
+    return False
 
 
 def _run(program: str, args: list[str]) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from contextlib import suppress
@@ -93,7 +94,7 @@ def _load(names: tuple[str, ...], overrides: tuple[str, ...]) -> list[tuple[str,
         with of_file(name):
             config = load_config(name, overrides)
             check_size(config)
-            path = volume_path(config).resolve()
+            path = Path(os.path.realpath(volume_path(config)))
             if path in loaded:
                 raise InputError(f"{config.output} is the output of {loaded[path][0]} too", key=("output",))
         loaded[path] = name, config

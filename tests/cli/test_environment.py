@@ -12,6 +12,7 @@ import pytest
 from bikestab_cli.main import LEAST_MEMORY
 from bikestab_cli.streams import LONGEST, Messages, Visible, cut, visible
 
+CONFIGS = Path(__file__).parents[2] / "configs"
 BIKESTAB = shutil.which("bikestab", path=str(Path(sys.executable).parent)) or shutil.which("bikestab")
 OWN = ("vrange", "--bicycle", "meijaard2007")
 PICTURE = ("bicycles", "meijaard2007", "-o", "a.png")
@@ -162,22 +163,37 @@ def test_a_file_that_may_not_grow():
     assert Path("a.png").read_bytes() == b"old"
 
 
+def test_a_folder_that_was_removed(tmp_path):
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    os.chdir(gone)
+    gone.rmdir()
+    done = run("eigen", "--bicycle", "meijaard2007", "--csv", "a.csv")
+    assert_one_message(done, 3)
+    assert b"the current folder was removed" in done.stderr
+
+
 @pytest.mark.parametrize(
     "args",
     [
         ("vrange", "--bicycle", "{}"), ("scan", "{}"), ("check", "{}"), ("info", "{}"), ("init", "{}"),
         ("slice", "{}", "--lam", "0.2"), ("eigen", "--csv", "{}"), ("export", "{}", "--mesh", "a.ply"),
-        ("reproduce", "--quick", "-o", "{}/out"),
+        ("reproduce", "--quick", "-o", "{}/out"), ("certify", "--verify", "{}"), ("convert", "{}"),
+        ("convert", "meijaard2007", "--rider", "{}"), ("convert", "meijaard2007", "-o", "{}.json"),
+        ("bicycles", "meijaard2007", "-o", "{}.png"), ("sensitivity", "--bicycle", "{}"),
+        ("scan", str(CONFIGS / "meijaard2007.yaml"), "--set", "output={}"),
+        ("init", "a.yaml", "--bicycle", "{}"), ("check", "{}", "--junit", "{}"),
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("kind", ["loop", "long", "below a file"])
 def test_names_that_lead_nowhere(bikestab, args, kind):
     name = {"loop": "./loop", "long": "./" + "n" * 300, "below a file": "file/a"}[kind]
-    Path("loop").symlink_to("loop")
+    for ending in ("", ".json", ".png"):
+        Path(f"loop{ending}").symlink_to(f"loop{ending}")
     Path("file").touch()
     code, out, err = bikestab(*(arg.format(name) for arg in args))
     assert (code, out) == (2, "")
     assert err.startswith("error: ")
-    assert name[2:80] in err
+    assert name[2:22] in err
     assert len(err.splitlines()) <= 3
     assert max(map(len, err.splitlines())) <= LONGEST

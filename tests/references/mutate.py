@@ -18,10 +18,10 @@ ROOT = Path(__file__).parents[2]
 SECONDS = 60
 TESTS = {
     "model": ["test_model.py", "test_routh.py"],
-    "polynomials": ["test_routh.py", "test_roots.py"],
+    "polynomials": ["test_polynomials.py", "test_routh.py", "test_roots.py"],
     "routh": ["test_routh.py"],
-    "roots": ["test_roots.py"],
-    "speeds": ["test_speeds.py"],
+    "roots": ["test_polynomials.py", "test_roots.py"],
+    "speeds": ["test_isolation.py", "test_speeds.py"],
 }
 _SWAPPED = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.Pow: ast.Mult,
