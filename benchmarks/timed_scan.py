@@ -70,6 +70,7 @@ def peak(pid: int | str = "self") -> int:
 
 def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
     """Around the parts of a scan; at the end ``workers`` has the peak memory of each process."""
+    from bikestab import aside
     from bikestab.plot import pictures
     from bikestab.scan import processes, run, tile
     from bikestab.scan.bracketing import Bracketing
@@ -80,7 +81,8 @@ def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
     clock.around(Bracketing, "add", "scipy as a witness")
     clock.around(Bracketing, "agreement", "scipy as a witness")
     clock.around(Spool, "add", "keeping tiles")
-    clock.around(pictures, "draw_pictures", "pictures")
+    clock.around(pictures, "draw_without_volume", "pictures")
+    aside.cores = lambda: 1  # else they are drawn while the scan runs, by a process of their own
     if jobs == 1:
         clock.around(processes, "compute", "evaluation: stable, violated")
         clock.around(tile, "check", "evaluation: the check")

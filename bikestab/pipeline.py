@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from bikestab.aside import meanwhile
 from bikestab.config.file import load_config
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import InputError
-from bikestab.scan.run import Progress, run_scan
+from bikestab.files import written
+from bikestab.scan.output import check_size
 from bikestab.volume import Volume
+
+if TYPE_CHECKING:
+    from bikestab.plot.pictures import Drawn
+    from bikestab.scan.run import Progress
+
+MOST_DRAWN = 8  # machines of a sweep whose pictures are drawn
 
 
 class Scan(NamedTuple):
@@ -76,15 +86,55 @@ def scan(
     >>> done.path.as_posix(), done.points, [picture.name for picture in done.pictures]
     ('out/few/volume.h5', 10571, ['region.png'])
     """
-    from bikestab.plot.pictures import draw_pictures  # matplotlib takes half a second
-
     loaded, place = _loaded(config, overrides, jobs and scheduler)
     try:
-        done = run_scan(loaded, force=force, jobs=jobs, scheduler=scheduler, progress=progress)
+        check_size(loaded)
+        with drawing(loaded) as pictures:
+            from bikestab.scan.run import run_scan
+
+            done = run_scan(loaded, force=force, jobs=jobs, scheduler=scheduler, progress=progress)
+            drawn = pictures()
     except InputError as error:
         raise error.at(place) from None
-    pictures = draw_pictures(loaded, done.path, _warn)
-    return Scan(done.path, tuple(pictures), done.computed, done.points, done.stable_points)
+    paths = write_pictures(loaded, done.path, drawn, _warn)
+    return Scan(done.path, tuple(paths), done.computed, done.points, done.stable_points)
+
+
+def drawing(config: ScanConfig) -> AbstractContextManager[Callable[[], Drawn]]:
+    """Begin with a scan's pictures, meanwhile if there is a core for it; the function waits for them."""
+    return meanwhile(partial(_drawn, config))
+
+
+def write_pictures(
+    config: ScanConfig, path: str | Path, drawn: Drawn, tell: Callable[[str], None]
+) -> list[Path]:
+    """Write pictures beside the volume at ``path``; ``tell`` is called with what could not be drawn."""
+    if len(config.members) > MOST_DRAWN:
+        values = " ".join(f"--at {name}={value:g}" for name, value in config.members[0].values.items())
+        x, _, _ = config.grid.names
+        plane = "--lam VALUE" if x == "lam" else f"--at {x}=VALUE"
+        tell(
+            f"note: pictures of {len(config.members)} machines are not drawn; draw one with, for example, "
+            f"'bikestab slice {path} {plane} {values}'"
+        )
+    for words in drawn.told:
+        tell(words)
+    files = drawn.files
+    if None in files.values():
+        from bikestab.plot.pictures import draw_from_volume  # matplotlib takes half a second
+
+        files = {**files, **draw_from_volume(config, path)}
+    paths = {Path(path).parent / name: content for name, content in files.items() if content is not None}
+    for picture, content in paths.items():
+        with written(picture) as part:
+            part.write_bytes(content)
+    return list(paths)
+
+
+def _drawn(config: ScanConfig) -> Drawn:
+    from bikestab.plot.pictures import Drawn, draw_without_volume
+
+    return draw_without_volume(config) if len(config.members) <= MOST_DRAWN else Drawn({}, [])
 
 
 def open_volume(path: str | Path) -> Volume:

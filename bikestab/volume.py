@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from copy import copy
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError, nearest
 from bikestab.family import Family
-from bikestab.fields import FIELDS, Axis
+from bikestab.fields import FIELDS, Axes, Axis
 from bikestab.formats.kinds import expected
 from bikestab.hdf5 import open_file, text_of
 from bikestab.layout import bicycle_of, check_ends, check_values, grid_axes, machine_names, sweep_names
@@ -25,6 +25,20 @@ from bikestab.watched import watched
 
 if TYPE_CHECKING:
     import xarray
+
+
+class Subject(Protocol):
+    """What a ``Volume`` is of, and may be known before there is one."""
+
+    @property
+    def path(self) -> Path: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def family(self) -> Family: ...
+    @property
+    def axes(self) -> Axes: ...
+    def axis(self, name: Axis) -> Floats: ...
 
 
 class Volume:
@@ -195,12 +209,12 @@ def parameters_text(family: Family) -> str:
     return json.dumps(family.kept)
 
 
-def check_ranges(volume: Volume, names: Iterable[Axis], what: str) -> None:
+def check_ranges(subject: Subject, names: Iterable[Axis], what: str) -> None:
     """Raise InputError where one of these axes has a single value, which ``what`` cannot be made of."""
     for name in names:
-        if len(volume.axis(name)) == 1:
+        if len(subject.axis(name)) == 1:
             problem = f"has one value of {name} alone, and {what} needs a range"
-            raise InputError(problem, place=str(volume.path))
+            raise InputError(problem, place=str(subject.path))
 
 
 def uniform(values: Floats) -> bool:

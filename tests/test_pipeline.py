@@ -9,7 +9,6 @@ from click.testing import CliRunner
 
 import bikestab as bs
 from bikestab.config.file import load_config
-from bikestab.plot import pictures
 
 SMALL = ["grid.lam.num=5", "grid.sigma.num=5", "grid.V.num=5"]
 
@@ -62,7 +61,7 @@ def test_what_would_not_be_heeded_is_refused():
 
 
 def test_what_is_not_drawn_is_a_warning(monkeypatch):
-    monkeypatch.setattr(pictures, "MOST_DRAWN", 1)
+    monkeypatch.setattr("bikestab.pipeline.MOST_DRAWN", 1)
     with pytest.warns(UserWarning, match="pictures of 2 machines are not drawn"):
         done = bs.scan("configs/quick.yaml", [*SMALL, "sweep={delta: [0, 1]}"])
     assert done.pictures == ()

@@ -87,8 +87,12 @@ class _Axes(Strict):
     @property
     def shape(self) -> tuple[int, int, int]:
         """Number of values of each axis."""
-        n, m, k = (len(self.values(name)) for name in self.names)
+        n, m, k = (self.size(name) for name in self.names)
         return n, m, k
+
+    def size(self, name: Axis) -> int:
+        """How many values an axis has."""
+        return int(getattr(self, self.key(name)).size)
 
     def values(self, name: Axis) -> Floats:
         """The values of one axis."""

@@ -146,7 +146,7 @@ class ScanConfig(Strict):
                 hint = f"allowed: {first:g} ... {last:g}"
                 raise mistake(f"{value:g} is outside the grid", hint, ("slices", i, name))
             for other in self.grid.names:
-                if other != name and len(self.grid.values(other)) == 1:
+                if other != name and self.grid.size(other) == 1:
                     problem = f"a picture needs a range of {other}, and the grid has one value"
                     key = self.grid.key(other)
                     raise mistake(problem, f"leave it out, or give more values in grid.{key}", ("slices", i))
@@ -181,6 +181,11 @@ class ScanConfig(Strict):
     def compiled(self) -> bool:
         """Whether there are growth rates, and the compiled kernel computes them."""
         return self.fast and "growth_rate" in self.fields
+
+    @property
+    def heading(self) -> str:
+        """The title, or else one that names the bicycle."""
+        return self.title or f"{self.machine.name}: region of stable motion"
 
     @property
     def axes(self) -> list[SweptAxis]:

@@ -1,62 +1,106 @@
-"""The pictures of a scan: those its config asks for, of each of its machines."""
+"""The pictures of a scan: those its config asks for, of each of its machines.
+
+Most of them need no volume: they can be drawn while it is computed.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
+from bikestab.config.parts import AnyGrid
 from bikestab.config.scanconfig import ScanConfig
+from bikestab.family import Family
+from bikestab.fields import Axes, Axis
+from bikestab.model import Floats
 from bikestab.plot import region
-from bikestab.plot.files import save, slice_name
+from bikestab.plot.files import drawn, slice_name
 from bikestab.plot.slices import draw_slice, on_grid
 from bikestab.volume import Volume
 
-MOST_DRAWN = 8  # machines of a sweep
+
+class Drawn(NamedTuple):
+    """Pictures by their names, in order, as the contents of files, and what is to be told.
+
+    None is the content of one that shows what was drawn at random: only the volume has it.
+    """
+
+    files: dict[str, bytes | None]
+    told: list[str]
 
 
-def draw_pictures(config: ScanConfig, path: str | Path, tell: Callable[[str], None]) -> list[Path]:
-    """Draw the pictures of the volume at ``path`` beside it; ``tell`` is called with what cannot be drawn."""
-    if len(config.members) > MOST_DRAWN:
-        values = " ".join(f"--at {name}={value:g}" for name, value in config.members[0].values.items())
-        x, _, _ = config.grid.names
-        plane = "--lam VALUE" if x == "lam" else f"--at {x}=VALUE"
-        tell(
-            f"note: pictures of {len(config.members)} machines are not drawn; draw one with, for example, "
-            f"'bikestab slice {path} {plane} {values}'"
-        )
-        return []
+@dataclass(frozen=True)
+class _Subject:
+    """A machine of a scan, whether it is computed yet or not, as ``volume.Subject``."""
+
+    path: Path
+    title: str
+    family: Family
+    grid: AnyGrid
+
+    @property
+    def axes(self) -> Axes:
+        return self.grid.names
+
+    def axis(self, name: Axis) -> Floats:
+        return self.grid.values(name)
+
+
+class _Picture(NamedTuple):
+    """What a picture is called, of which machine it is, what it shows, and in which plane, if in one."""
+
+    name: str
+    member: int
+    kind: Literal["region", "growth_rate", "probability"]
+    fixed: Axis = "V"
+    value: float = 0.0
+
+
+def draw_without_volume(config: ScanConfig) -> Drawn:
+    """The pictures of a scan, but for those that only its volume has."""
+    done = Drawn({}, [])
+    for name, member, kind, fixed, value in _pictures(config):
+        subject = _subject(config, member)
+        if kind == "region":
+            try:
+                done.files[name] = drawn(region.draw_region(subject))
+            except Exception as error:  # the volume and the other pictures are worth more than this one
+                what = f"{subject.path.parent / name} cannot be drawn"
+                text = f"{type(error).__name__}: {error}".rstrip(": ")
+                done.told.append(f"warning: {what} ({text}); please report this")
+        else:
+            is_there = kind == "growth_rate"
+            done.files[name] = drawn(draw_slice(subject, fixed, value)) if is_there else None
+    return done
+
+
+def draw_from_volume(config: ScanConfig, path: str | Path) -> dict[str, bytes]:
+    """The other pictures."""
     with Volume(path) as volume:
-        return [
-            picture
-            for member in config.members
-            for picture in _of_one(config, volume.at(member.values), member.values, tell)
-        ]
+        return {
+            name: drawn(draw_slice(volume.at(config.members[member].values), fixed, value, kind))
+            for name, member, kind, fixed, value in _pictures(config)
+            if kind == "probability"
+        }
 
 
-def _region(volume: Volume, path: Path, tell: Callable[[str], None]) -> list[Path]:
-    try:
-        figure = region.draw_region(volume)
-    except Exception as error:  # the volume and the other pictures are worth more than this one
-        text = f"{type(error).__name__}: {error}".rstrip(": ")
-        tell(f"warning: {path} cannot be drawn ({text}); please report this")
-        return []
-    save(figure, path)
-    return [path]
+def _subject(config: ScanConfig, member: int) -> _Subject:
+    values = ", ".join(f"{name} = {value:g}" for name, value in config.members[member].values.items())
+    title = config.heading + (f" ({values})" if values else "")
+    return _Subject(Path(config.output) / "volume.h5", title, config.family(member), config.grid)
 
 
-def _of_one(
-    config: ScanConfig, volume: Volume, values: Mapping[str, float], tell: Callable[[str], None]
-) -> list[Path]:
-    folder = volume.path.parent
-    pictures: list[Path] = []
-    if all(len(volume.axis(name)) > 1 for name in volume.axes):
-        pictures += _region(volume, folder / slice_name(values, "region"), tell)
-    fields: tuple[Literal["growth_rate", "probability"], ...] = ("growth_rate", "probability")
-    for plane in config.slices:
-        fixed, value = plane.fixed
-        for field in fields[: 2 if config.ensemble else 1]:
-            at = value if field == "growth_rate" else on_grid(volume, fixed, value)
-            pictures.append(folder / slice_name({fixed: at, **values}, field))
-            save(draw_slice(volume, fixed, value, field), pictures[-1])
-    return pictures
+def _pictures(config: ScanConfig) -> Iterator[_Picture]:
+    grid = config.grid
+    for i, (values, _) in enumerate(config.members):
+        if all(grid.size(name) > 1 for name in grid.names):
+            yield _Picture(slice_name(values, "region"), i, "region")
+        for plane in config.slices:
+            fixed, value = plane.fixed
+            yield _Picture(slice_name({fixed: value, **values}), i, "growth_rate", fixed, value)
+            if config.ensemble:
+                near = on_grid(grid.values(fixed), value)
+                name = slice_name({fixed: near, **values}, "probability")
+                yield _Picture(name, i, "probability", fixed, value)

@@ -23,7 +23,7 @@ from bikestab.plot.settings import own_settings
 from bikestab.region.mesh import Mesh, region_mesh
 from bikestab.region.triangulation import sides_of
 from bikestab.speeds import CAPSIZE, KINDS, WEAVE
-from bikestab.volume import Volume
+from bikestab.volume import Subject
 
 # two colours of Okabe and Ito (2008) that differ in greyscale too
 SHEETS = {WEAVE: ("#0072b2", "weave boundary"), CAPSIZE: ("#e69f00", "capsize boundary")}
@@ -33,26 +33,26 @@ _SCALE = (1.0, 1.0, 0.85)  # of the drawn box
 
 
 @own_settings()
-def draw_region(volume: Volume) -> Figure:
-    """The boundary surface within the volume's axes, weave and capsize sheets in two colours."""
-    box = [(float(axis[0]), float(axis[-1])) for axis in (volume.axis(name) for name in volume.axes)]
-    family = volume.family
+def draw_region(subject: Subject) -> Figure:
+    """The boundary surface within a volume's axes, weave and capsize sheets in two colours."""
+    box = [(float(axis[0]), float(axis[-1])) for axis in (subject.axis(name) for name in subject.axes)]
+    family = subject.family
     labels = labels_of(family)
     mesh = region_mesh(family, box[0], box[1], box[2], cells=_CELLS)
     figure = Figure(figsize=(7.4, 6.4), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
-    bicycle = volume.bicycle
-    straight = volume.axes == AXES
+    bicycle = family.bicycle
+    straight = subject.axes == AXES
     if straight:
         lam, sigma = straight_designs(bicycle, box[0], box[1])
         ax.plot(lam, sigma, box[2][0], zorder=0, **STRAIGHT)  # on the floor, under the surface
-    handles = draw_mesh(ax, mesh, box, [labels[name] for name in volume.axes])
+    handles = draw_mesh(ax, mesh, box, [labels[name] for name in subject.axes])
     if straight and not np.isnan(sigma).all():
         handles.append(straight_entry("smaller σ"))
     if handles:
         legend_below(figure, handles, ncols=2, handlelength=2)
-    what = f"{short(bicycle.name)}: stable region{remarks(bicycle, volume.model)}"
-    set_title(ax, volume.title, what)
+    what = f"{short(bicycle.name)}: stable region{remarks(bicycle, family.model)}"
+    set_title(ax, subject.title, what)
     return figure
 
 

@@ -21,77 +21,65 @@ from bikestab.plot.settings import own_settings
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import conditions, violated
 from bikestab.spectrum import growth_rate_of
-from bikestab.volume import Volume, check_ranges
+from bikestab.volume import Subject, Volume, check_ranges
 
 _SAMPLES = 401  # per axis, for finding the curves; their points are then moved onto the exact zero
 
 
 @own_settings()
 def draw_slice(
-    volume: Volume, fixed: Axis, value: float, field: Literal["growth_rate", "probability"] = "growth_rate"
+    subject: Subject, fixed: Axis, value: float, field: Literal["growth_rate", "probability"] = "growth_rate"
 ) -> Figure:
-    """The picture of the plane in which ``fixed`` has ``value``.
+    """The picture of the plane in which ``fixed`` has ``value``, of a volume or of what will be one.
 
-    Growth rate from the volume where it holds that plane, else computed for it; the probability of an
-    ensemble is that of the nearest plane of the grid. Raises InputError for a value outside the grid, and
-    where there is no ensemble.
+    The growth rate is computed for that plane, as it is for a volume; the probability of an ensemble, which
+    must be a volume's, is that of the nearest plane of the grid. Raises InputError for a value outside the
+    grid, for a plane of which the grid has a line alone, and where there is no ensemble.
     """
-    if field == "probability" and field not in volume.fields:
-        problem, hint = "has no probability", "a config with 'ensemble:' gives one"
-        raise InputError(problem, place=str(volume.path), hint=hint)
-    axis = volume.axis(fixed)
+    axis = subject.axis(fixed)
     if not axis[0] <= value <= axis[-1]:
         raise InputError(
             f"{SYMBOLS.get(fixed, fixed)} = {value:g} is outside the volume",
-            place=str(volume.path),
+            place=str(subject.path),
             hint=f"allowed: {axis[0]:g} ... {axis[-1]:g}",
         )
-    near = int(np.argmin(np.abs(axis - value)))
+    volume = subject if field == "probability" and isinstance(subject, Volume) else None
     if field == "probability":
-        value = on_grid(volume, fixed, value)
-    section = Section(volume.family, fixed, value)
-    check_ranges(volume, section.axes, "a picture")
-    x, y = (volume.axis(name) for name in section.axes)
+        if volume is None or field not in volume.fields:
+            problem, hint = "has no probability", "a config with 'ensemble:' gives one"
+            raise InputError(problem, place=str(subject.path), hint=hint)
+        value = on_grid(axis, value)
+    section = Section(subject.family, fixed, value)
+    check_ranges(subject, section.axes, "a picture")
+    x, y = (subject.axis(name) for name in section.axes)
     figure = Figure(figsize=(7.4, 5.2), layout="constrained")
     ax = figure.add_subplot()
-    if field == "probability":
-        colour_probability(figure, ax, x, y, _stored(volume, field, fixed, near), volume.samples)
+    if volume:
+        colour_probability(figure, ax, x, y, _probability(volume, fixed, value), volume.samples)
         handles = _edges(ax, section, x, y, "boundary without the spread")
     else:
-        colour_growth_rate(figure, ax, x, y, _growth_rate(volume, section, fixed, x, y, near))
+        growth = growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
+        colour_growth_rate(figure, ax, x, y, growth)
         handles = _stable_region(ax, section, x, y)
-    if volume.axes == AXES and fixed == "V" and handles:
+    if subject.axes == AXES and fixed == "V" and handles:
         ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-        handles += straight_fork(ax, volume.bicycle)
+        handles += straight_fork(ax, subject.family.bicycle)
     legend_below(figure, handles)
-    _decorate(ax, volume, section)
+    _decorate(ax, subject, section)
     return figure
 
 
-def on_grid(volume: Volume, fixed: Axis, value: float) -> float:
-    """The value of the nearest plane of the grid, which is what a picture of the probability shows."""
-    axis = volume.axis(fixed)
+def on_grid(axis: Floats, value: float) -> float:
+    """The value of the nearest plane of the grid, unless they differ by no more than rounding."""
     near = float(axis[np.argmin(np.abs(axis - value))])
-    return value if _same(axis, near, value) else near
+    return value if abs(near - value) <= 1e-9 * (axis[-1] - axis[0]) else near
 
 
-def _same(axis: Floats, a: float, b: float) -> bool:
-    """Whether two values of an axis differ by no more than its values' rounding."""
-    return bool(abs(a - b) <= 1e-9 * (axis[-1] - axis[0]))
-
-
-def _stored(volume: Volume, field: str, fixed: Axis, at: int) -> Floats:
-    """A field of the volume in a plane of its grid, at (y, x)."""
+def _probability(volume: Volume, fixed: Axis, value: float) -> Floats:
+    """That of a plane of the grid, at (y, x)."""
+    at = int(np.argmin(np.abs(volume.axis(fixed) - value)))
     index = tuple(at if name == fixed else slice(None) for name in volume.axes)
-    return np.transpose(volume.read(field, index))  # the file's first axis is along x
-
-
-def _growth_rate(volume: Volume, section: Section, fixed: Axis, x: Floats, y: Floats, near: int) -> Floats:
-    """Growth rate at (y, x)."""
-    axis = volume.axis(fixed)
-    if "growth_rate" in volume.fields and _same(axis, axis[near], section.value):
-        return _stored(volume, "growth_rate", fixed, near)
-    return growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
+    return np.transpose(volume.read("probability", index))  # the file's first axis is along x
 
 
 def _stable_region(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Any]:
@@ -126,14 +114,14 @@ def _edges(ax: Axes, section: Section, x: Floats, y: Floats, word: str = "bounda
     return handles
 
 
-def _decorate(ax: Axes, volume: Volume, section: Section) -> None:
+def _decorate(ax: Axes, subject: Subject, section: Section) -> None:
     family, bicycle, value = section.family, section.family.bicycle, section.value
     label_family(ax, *section.axes, family)
     where = {p.name: f"{p.symbol} = {value:.6g} {p.unit}".removesuffix(" 1") for p in family.parameters}
     where["V"] = f"V = {value:.6g} m/s"
     if "lam" in where:
         where["lam"] += f" (head angle {head_angle(value):.2f}°)"
-    if volume.axes == AXES:
+    if subject.axes == AXES:
         where["sigma"] += f" (trail {value * bicycle.c:.4g} m)"
     what = f"{short(bicycle.name)}: {where[section.fixed]}{remarks(bicycle, family.model)}"
-    set_title(ax, volume.title, what)
+    set_title(ax, subject.title, what)

@@ -19,7 +19,7 @@ MARGINAL = ("certain", "capsize_speed", "weave_speeds", "order_of_speeds", "sign
 def texts(config: ScanConfig) -> dict[str, str]:
     """The identity of a config, and the file's attributes that may differ where it does not."""
     return {
-        "title": config.title or f"{config.machine.name}: region of stable motion",
+        "title": config.heading,
         "references": config.machine.source,
         "bicycle": config.machine.name,
         "warnings": "\n".join(config.warnings),

@@ -21,17 +21,11 @@ from queue import SimpleQueue
 from types import ModuleType
 from typing import cast
 
+from bikestab.aside import cores as cores
 from bikestab.errors import WorkersLost
 from bikestab.scan.tile import Finished, Tile, compute
 
 Numbered = tuple[int, Tile]
-
-
-def cores() -> int:
-    """How many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def in_turn(tiles: Iterable[Numbered]) -> Generator[tuple[int, Finished]]:

@@ -104,20 +104,22 @@ def _load(names: tuple[str, ...], overrides: tuple[str, ...]) -> list[tuple[str,
 def _run(
     name: str, config: ScanConfig, force: bool, jobs: int | None, scheduler: str, quiet: bool
 ) -> tuple[ScanResult, list[Path]]:
-    from bikestab.plot.pictures import draw_pictures
+    from bikestab.pipeline import drawing, write_pictures
     from bikestab.scan.output import tiles_path
-    from bikestab.scan.run import run_scan
 
-    try:
-        with progress(name, quiet) as show:
-            result = run_scan(config, force=force, jobs=jobs, scheduler=scheduler, progress=show)
-    except KeyboardInterrupt:
-        hint = ""
-        with suppress(OSError):
-            if tiles_path(config).stat().st_size:
-                hint = f"{name}: what is finished is kept; the same command goes on from there"
-        raise KeyboardInterrupt(hint) from None
-    return result, draw_pictures(config, result.path, partial(click.echo, err=True))
+    with drawing(config) as pictures:
+        from bikestab.scan.run import run_scan
+
+        try:
+            with progress(name, quiet) as show:
+                result = run_scan(config, force=force, jobs=jobs, scheduler=scheduler, progress=show)
+        except KeyboardInterrupt:
+            hint = ""
+            with suppress(OSError):
+                if tiles_path(config).stat().st_size:
+                    hint = f"{name}: what is finished is kept; the same command goes on from there"
+            raise KeyboardInterrupt(hint) from None
+        return result, write_pictures(config, result.path, pictures(), partial(click.echo, err=True))
 
 
 def _page(volume: Path) -> str:

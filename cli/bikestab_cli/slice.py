@@ -75,7 +75,7 @@ def command(
                 design = design_given({fixed: value}, bicycle.c, bicycle.R2)
             fixed, value = ("lam", float(design[0])) if fixed == "head_angle" else ("sigma", float(design[1]))
         field: Literal["growth_rate", "probability"] = "probability" if probability else "growth_rate"
-        if probability and (near := on_grid(opened, fixed, value)) != value:
+        if probability and (near := on_grid(opened.axis(fixed), value)) != value:
             click.echo(f"note: the nearest plane of the grid is drawn, {fixed} = {near:.6g}", err=True)
             value = near
         name = slice_name({fixed: value, **machine}, field)

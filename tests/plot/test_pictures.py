@@ -2,10 +2,9 @@
 
 import pytest
 
-from bikestab import yamltext
+from bikestab import pipeline, yamltext
 from bikestab.config.file import parse_config
-from bikestab.plot import pictures, region
-from bikestab.plot.pictures import draw_pictures
+from bikestab.plot import region
 from bikestab.scan.run import run_scan
 
 CONFIG = """\
@@ -20,6 +19,11 @@ output: OUT
 """
 
 
+def draw(config, path, tell):
+    with pipeline.drawing(config) as pictures:
+        return pipeline.write_pictures(config, path, pictures(), tell)
+
+
 @pytest.fixture
 def scan(tmp_path):
     config = parse_config(yamltext.parse(CONFIG.replace("OUT", str(tmp_path)), "a.yaml"))
@@ -28,7 +32,7 @@ def scan(tmp_path):
 
 def test_of_each_machine(scan, tmp_path):
     told = []
-    drawn = draw_pictures(*scan, told.append)
+    drawn = draw(*scan, told.append)
     assert told == []
     assert [path.name for path in drawn] == [
         f"{kind}_delta_{value}.png" for value in (0, 2) for kind in ("region", "slice_lam_0.2")
@@ -42,9 +46,9 @@ def test_what_is_not_drawn_is_told(scan, monkeypatch):
 
     told = []
     monkeypatch.setattr(region, "draw_region", broken)
-    assert len(draw_pictures(*scan, told.append)) == 2
+    assert len(draw(*scan, told.append)) == 2
     assert [words.split(" (")[1] for words in told] == ["ValueError: no such luck); please report this"] * 2
-    monkeypatch.setattr(pictures, "MOST_DRAWN", 1)
+    monkeypatch.setattr(pipeline, "MOST_DRAWN", 1)
     told.clear()
-    assert draw_pictures(*scan, told.append) == []
+    assert draw(*scan, told.append) == []
     assert told[0].startswith("note: pictures of 2 machines are not drawn")

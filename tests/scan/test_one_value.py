@@ -10,12 +10,17 @@ from bikestab.config.file import parse_config
 from bikestab.errors import InputError
 from bikestab.export.volumes import export_intervals, export_mesh, export_skeleton
 from bikestab.fields import AXES
-from bikestab.plot.pictures import draw_pictures
+from bikestab.pipeline import drawing, write_pictures
 from bikestab.plot.slices import draw_slice
 from bikestab.scan.run import run_scan
 from bikestab.volume import Volume
 
 VALUES = {"lam": [0.1, 0.2, 0.31], "sigma": [0.05, 0.08, 0.12], "V": [1, 4.5, 7]}
+
+
+def pictures_of(config, path):
+    with drawing(config) as pictures:
+        return [picture.name for picture in write_pictures(config, path, pictures(), pytest.fail)]
 
 
 def volume(single, slices=""):
@@ -37,8 +42,7 @@ def test_the_numbers_of_a_larger_grid(single):
         expected = {name: large.read(name)[at] for name in ("stable", "growth_rate")}
         ends = large.read("V1")[at[:2]]
     config, path = volume(single)
-    pictures = draw_pictures(config, path, pytest.fail)
-    assert pictures == []
+    assert pictures_of(config, path) == []
     with Volume(path) as opened:
         for name, values in expected.items():
             assert np.array_equal(opened.read(name), values)
@@ -57,6 +61,6 @@ def test_the_numbers_of_a_larger_grid(single):
 
 def test_pictures_across_the_single_value():
     config, path = volume(("V",), "slices: [{V: 4.5}]\n")
-    assert [picture.name for picture in draw_pictures(config, path, pytest.fail)] == ["slice_V_4.5.png"]
+    assert pictures_of(config, path) == ["slice_V_4.5.png"]
     with pytest.raises(InputError, match=r"slices\[0\]: a picture needs a range of V"):
         volume(("V",), "slices: [{lam: 0.2}]\n")

@@ -1,0 +1,84 @@
+"""A task in a second process, while this one goes on with another.
+
+A copy of this process has all that the task needs, and costs some milliseconds. It is made where there is a
+core for it, and only beside no other thread, whose locks it would hold for ever. Where it is ended by
+something else, its task is done here.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import pickle
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import Generic, TypeVar
+
+T = TypeVar("T")
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+@contextmanager
+def meanwhile(task: Callable[[], T]) -> Iterator[Callable[[], T]]:
+    """Begin a task; the function that is given waits for what it returns, and raises what it raises.
+
+    Where the block ends without that, nobody wants it any more. What the task returns goes through a pipe.
+    """
+    if not sys.platform.startswith("linux") or cores() < 2 or threading.active_count() > 1:
+        yield task
+        return
+    second = _Second(task)
+    try:
+        yield second.result
+    finally:
+        second.end()
+
+
+class _Second(Generic[T]):
+    """A process with a task, until its result or its end is asked for."""
+
+    def __init__(self, task: Callable[[], T]) -> None:
+        self.task = task
+        self.pipe, theirs = os.pipe()
+        self.child = os.fork()
+        if not self.child:
+            _answer(task, theirs)
+        os.close(theirs)
+
+    def result(self) -> T:
+        with open(self.pipe, "rb", closefd=False) as pipe:
+            answer = pipe.read()
+        done: tuple[T] | None = None
+        with suppress(EOFError, pickle.UnpicklingError):  # it was ended, by lack of memory for one
+            done = pickle.loads(answer)
+        return done[0] if done else self.task()
+
+    def end(self) -> None:
+        os.close(self.pipe)
+        with suppress(ProcessLookupError, ChildProcessError):  # where SIGCHLD is ignored there is none left
+            os.kill(self.child, signal.SIGKILL)
+            os.waitpid(self.child, 0)
+
+
+def _answer(task: Callable[[], T], pipe: int) -> None:
+    """What the second process does: nothing of the first one's is closed, flushed or told of twice."""
+    try:
+        faulthandler.disable()
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        nowhere = os.open(os.devnull, os.O_RDWR)
+        for stream in (0, 1, 2):
+            os.dup2(nowhere, stream)
+        answer = memoryview(pickle.dumps((task(),)))
+        while answer:
+            answer = answer[os.write(pipe, answer) :]
+    finally:
+        os._exit(0)

@@ -1,0 +1,106 @@
+"""A task in a second process: what it gives, and what becomes of it whatever happens."""
+
+import os
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+
+def run(text):
+    """What a program of its own prints, whose process has no thread but the first."""
+    start = "import os, signal, time\nfrom bikestab import aside\nfrom bikestab.aside import meanwhile\n"
+    start += "aside.cores = lambda: 2\nhere = os.getpid()\n"
+    done = subprocess.run(
+        [sys.executable, "-c", start + textwrap.dedent(text)], capture_output=True, text=True, timeout=60
+    )
+    return done.stdout.split(), done.stderr
+
+
+linux = pytest.mark.skipif(
+    not sys.platform.startswith("linux"), reason="elsewhere there is no second process"
+)
+
+
+@linux
+def test_it_runs_beside_the_block():
+    out, err = run("""
+        def task():
+            print("no word of it")
+            return os.getpid(), b"x" * (1 << 20)
+        with meanwhile(task) as result:
+            number, content = result()
+        print(number != here, len(content))
+        """)
+    assert (out, err) == (["True", str(1 << 20)], "")
+
+
+@linux
+def test_one_core_does_it_here():
+    out, _ = run("""
+        aside.cores = lambda: 1
+        with meanwhile(os.getpid) as result:
+            print(result() == here)
+        """)
+    assert out == ["True"]
+
+
+@linux
+@pytest.mark.parametrize("end", ["os.kill(os.getpid(), signal.SIGKILL)", "os._exit(0)", "raise ValueError"])
+def test_what_ends_it_costs_no_result(end):
+    out, err = run(f"""
+        def task():
+            if os.getpid() != here:
+                {end}
+            return "done"
+        with meanwhile(task) as result:
+            print(result())
+        """)
+    assert (out, err) == (["done"], "")
+
+
+@linux
+def test_its_error_is_raised():
+    out, _ = run("""
+        try:
+            with meanwhile(lambda: 1 / 0) as result:
+                result()
+        except ZeroDivisionError:
+            print("divided")
+        """)
+    assert out == ["divided"]
+
+
+@linux
+def test_nobody_waits_for_what_is_not_wanted():
+    out, err = run("""
+        start = time.monotonic()
+        try:
+            with meanwhile(lambda: time.sleep(50)):
+                raise ValueError
+        except ValueError:
+            print(time.monotonic() - start < 10)
+        try:
+            os.waitpid(-1, 0)
+        except ChildProcessError:
+            print("none left")
+        """)
+    assert (out, err) == (["True", "none", "left"], "")
+
+
+@linux
+def test_beside_another_thread_it_is_done_here():
+    out, _ = run("""
+        import threading
+        threading.Thread(target=time.sleep, args=(0.2,)).start()
+        with meanwhile(os.getpid) as result:
+            print(result() == here)
+        """)
+    assert out == ["True"]
+
+
+def test_cores():
+    from bikestab.aside import cores
+
+    assert 1 <= cores() <= os.cpu_count()
