@@ -26,6 +26,7 @@ from bikestab.twofold import Double, Pair, Twofold, pair_difference, pair_produc
 
 _ENOUGH = 2.0**-55  # a bound relative to its speed, below the rounding of that
 _MOST = 0.5  # of the cells: so many are worked on as quickly together with the others as by themselves
+_NEAR = 1e-7  # the last relative step to where the correction starts, which squares what is left
 _STEPS = 4  # in twice double precision
 _Cells = NDArray[np.bool_]
 _Some = Any  # an index of cells
@@ -167,7 +168,7 @@ def zeros_between(entries: Entries, condition: Condition, c: Coefficients) -> Ze
     """The positive zeros V of p1 or hurwitz3 with damping; ``sure`` where they are good."""
     (cell, low, high, sign), undecided = isolated(c, len(entries))
     plain = np.array([np.zeros(len(cell)) if a is None else a.value[cell] for a in c])
-    start = bracketed_root(plain, low, high, sign)
+    start = bracketed_root(plain, low, high, sign, _NEAR)
     return corrected(entries, condition, c, collected(cell, start[np.newaxis], len(entries))[0], ~undecided)
 
 

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import comb, lcm
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.rounding import CUT, POLYNOMIAL
+from bikestab.signchanges import sign_changes
 from bikestab.twofold import Double, Twofold
 
 _Indices = NDArray[np.intp]
@@ -122,22 +123,23 @@ def _halves(coefficients: Sequence[Twofold | None], number: int, middle: float) 
 
 
 def _plain_halves(coefficients: Sequence[Double | None], number: int, middle: float) -> _Work:
-    """``_halves`` in double precision; sizes such that CUT of them covers the coefficients' errors too."""
+    """``_halves`` in double precision; sizes such that CUT of them covers the coefficients' errors too.
+
+    The sum over j of binomials (i, j) times a number is the first one after i times adding to each its next.
+    """
     n = len(coefficients) - 1
-    value, size = np.zeros((2, n + 1, 2 * number))
-    for inverse, here in ((False, slice(number)), (True, slice(number, None))):
-        a = [
-            None
-            if c is None
-            else (c.value * middle**j, (np.abs(c.value) + POLYNOMIAL / CUT * c.size) * middle**j)
-            for j, c in enumerate(coefficients)
-        ][:: -1 if inverse else 1]
+    a = np.zeros((2, n + 1, number))  # values and sizes
+    for j, c in enumerate(coefficients):
+        if c is not None:
+            factor = middle**j / comb(n, j)
+            a[0, j] = c.value * factor
+            a[1, j] = (np.abs(c.value) + POLYNOMIAL / CUT * c.size) * factor
+    b = np.empty((2, n + 1, 2 * number))
+    for sums, here in ((a, slice(number)), (a[:, ::-1], slice(number, None))):
         for i in range(n + 1):
-            for x, factor in zip(a, _factors(n, i), strict=False):
-                if x is not None:
-                    value[i, here] += x[0] * factor
-                    size[i, here] += x[1] * factor
-    return _whole(Twofold(value, None, size), number)
+            b[:, i, here] = sums[:, 0]
+            sums = sums[:, :-1] + sums[:, 1:]
+    return _whole(Twofold(b[0], None, b[1]), number)
 
 
 def _whole(b: Twofold, number: int) -> _Work:
@@ -147,22 +149,10 @@ def _whole(b: Twofold, number: int) -> _Work:
     return _Work(cell, np.arange(2 * number) >= number, *ends, b)
 
 
-def _sign_changes(work: _Work, share: float) -> tuple[_Indices, _Flags, Floats]:
+def _sign_changes(work: _Work, share: float) -> tuple[NDArray[Any], _Flags, Floats]:
     """How often the coefficients change their sign, whether that is certain, and the sign at the upper V."""
-    b = work.b
-    uncertain = (np.abs(b.value) <= share * b.size) & (b.size > 0)
-    sign = np.where(uncertain, 0.0, np.sign(b.value))
-    changes = np.zeros(sign.shape[1], np.intp)
-    before, after = np.zeros_like(sign), np.zeros_like(sign)
-    for i in range(1, len(sign)):  # the nearest sign that is known
-        before[i] = np.where(sign[i - 1] == 0, before[i - 1], sign[i - 1])
-        changes += before[i] * sign[i] < 0
-        after[-1 - i] = np.where(sign[-i] == 0, after[-i], sign[-i])
-    # between different signs there is one change, whatever a single uncertain coefficient is
-    alone = before * after < 0
-    alone[1:] &= ~uncertain[:-1]
-    clear = ~np.any(uncertain & ~alone, axis=0)
-    first, last = np.where(sign[0] == 0, after[0], sign[0]), np.where(sign[-1] == 0, before[-1], sign[-1])
+    bound = share * work.b.size
+    changes, clear, first, last = sign_changes(work.b.value > -bound, work.b.value < bound)
     return changes, clear, np.where(work.inverse, first, last)
 
 

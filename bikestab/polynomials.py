@@ -26,13 +26,14 @@ def value(c: Floats, x: Floats) -> Floats:
     return out
 
 
-def value_and_slope(c: Floats, x: Floats) -> tuple[Floats, Floats]:
-    """Value and first derivative at x of polynomials of degree 1 or more."""
-    out, slope = c[-1] * x + c[-2], c[-1]
+def value_and_slopes(c: Floats, x: Floats) -> tuple[Floats, Floats, Floats]:
+    """Value, first derivative and half of the second one at x of polynomials of degree 1 or more."""
+    out, slope, bend = c[-1] * x + c[-2], c[-1], np.zeros_like(x)
     for cj in c[-3::-1]:
+        bend = bend * x + slope
         slope = slope * x + out
         out = out * x + cj
-    return out, slope
+    return out, slope, bend
 
 
 def product_of(a: list[T | None], b: list[T | None]) -> list[T | None]:

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
-from bikestab.polynomials import derivative, used_powers, value, value_and_slope
+from bikestab.polynomials import derivative, used_powers, value, value_and_slopes
 
 _CHUNK = 1 << 13  # cells worked on at a time: a polynomial of degree 6 and its temporaries fit the L2 cache
-_CLOSE = 1e-13  # last relative step to a root; Newton's next one would be far below rounding
+_CLOSE = 1e-13  # last relative step to a root; the next one would be far below rounding
 _CLOSE_SLOPE = 1e-6  # the same for an extremum, whose value depends on its place only to second order
 
 
@@ -80,19 +80,22 @@ def _bracketed(c: Floats) -> Floats:
     return np.sort(np.where(found, knots, np.nan), axis=0)
 
 
-def bracketed_root(c: Floats, low: Floats, high: Floats, sign: Floats) -> Floats:
+def bracketed_root(c: Floats, low: Floats, high: Floats, sign: Floats, close: float = _CLOSE) -> Floats:
     """The one root of each polynomial (power, root) in low … high, whose sign is known at the upper end.
 
-    The ends may be 0 and inf. To a few units of the last place, if the root is not nearly a multiple one.
+    The ends may be 0 and inf. To a few units of the last place, if the root is not nearly a multiple one;
+    with another ``close`` the last step, relative to the root, is below that.
     """
-    exponent = np.where(c == 0, -(1 << 20), np.frexp(c)[1])
-    a = np.where(low > 0, low, np.ldexp(1.0, -_exponent_above(exponent[::-1])))
-    b = np.where(np.isfinite(high), high, np.ldexp(1.0, _exponent_above(exponent)))
-    return _bracket(c, np.minimum(a, b), np.maximum(a, b), sign, _CLOSE)
+    a, b = low.copy(), high.copy()
+    none, all_ = np.flatnonzero(low == 0), np.flatnonzero(high == np.inf)
+    a[none] = np.ldexp(1.0, -_exponent_above(c[::-1, none]))
+    b[all_] = np.ldexp(1.0, _exponent_above(c[:, all_]))
+    return _bracket(c, np.minimum(a, b), np.maximum(a, b), sign, close)
 
 
-def _exponent_above(exponent: NDArray[np.int_]) -> NDArray[np.int_]:
+def _exponent_above(c: Floats) -> NDArray[np.int_]:
     """K with all roots below 2^k in size (Fujiwara 1916), from the exponents of coefficients."""
+    exponent = np.where(c == 0, -(1 << 20), np.frexp(c)[1])
     n = len(exponent) - 1 - np.argmax(exponent[::-1] > -(1 << 19), axis=0)  # degree of each cell
     lead = np.take_along_axis(exponent, n[np.newaxis], axis=0)[0]
     most = np.full(lead.shape, -1000)
@@ -147,7 +150,7 @@ def _sign_changes(c: Floats, lo: Floats, hi: Floats, close: float) -> tuple[Floa
 
 
 def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> Floats:
-    """The one root of each polynomial in [a, b]: Newton's steps, halving in the logarithm where they fail.
+    """The one root of each polynomial in [a, b]: Halley's steps, halving in the logarithm where they fail.
 
     A step that is ``close`` (relative) to its start ends the search; its result is twice as good.
     """
@@ -156,13 +159,13 @@ def _bracket(c: Floats, a: Floats, b: Floats, sign_b: Floats, close: float) -> F
     active = np.ones(len(a), bool)
     x = np.sqrt(a * b)
     while len(cell):
-        f, slope = value_and_slope(c, x)
+        f, slope, bend = value_and_slopes(c, x)
         right = f * sign_b > 0
         b = np.where(right, x, b)
         a = np.where(right, a, x)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            new = np.where(f == 0, x, x - f / slope)
-        inside = ((new > a) & (new < b)) | (new == x)  # from one end to the other Newton may go in circles
+            new = np.where(f == 0, x, x - f / (slope - f * bend / slope))
+        inside = ((new > a) & (new < b)) | (new == x)  # from one end to the other steps may go in circles
         new = np.where(inside, new, np.sqrt(a * b))
         new = np.where(active, new, x)  # a root that is found does not depend on its company
         active = (np.abs(new - x) > close * x) & (b - a > 2**-51 * b)

@@ -5,6 +5,7 @@ import pytest
 
 import bikestab.critical
 import bikestab.isolation
+from bikestab import signchanges
 from bikestab.bicycle import Bicycle
 from bikestab.certain import signs, zeros_of
 from bikestab.corrected import zeros_between
@@ -99,3 +100,14 @@ def test_ends_that_are_no_neighbours_may_be_out_of_order():
     radius = np.array([[0, 0], [0.3, 0.1], [0, 0], [0, 0], [0, 0]])
     kind = np.array([[REST] * 2, [WEAVE] * 2, [WEAVE] * 2, [CAPSIZE] * 2, [UNBOUNDED] * 2], np.uint8)
     assert _out_of_order(_Ends(V, np.zeros_like(V), radius, kind)).tolist() == [True, False]
+
+
+def test_tabulated_sign_changes_are_those_counted():
+    rng = np.random.default_rng(2)
+    for rows in (4, 7):
+        positive, negative = rng.random((2, rows, signchanges._FEW)) < 0.6
+        many = signchanges.sign_changes(positive, negative)
+        halves = zip(np.hsplit(positive, 2), np.hsplit(negative, 2), strict=True)
+        few = [signchanges.sign_changes(*half) for half in halves]
+        for values, parts in zip(many, zip(*few, strict=True), strict=True):
+            np.testing.assert_array_equal(values, np.concatenate(parts))
