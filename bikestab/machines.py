@@ -116,6 +116,13 @@ class Machines:
             shape=shape, bodies=bodies, parts=(*parts,), **{p.name: numbers[p.name] for p in _PARAMETERS}
         )
 
+    @property
+    def exist(self) -> Any:
+        """Which of them can be: where ``Bicycle`` would take the parameters; unchecked with ``varied``."""
+        with np.errstate(all="ignore"):
+            good = _machine_exists(vars(self))
+            return good if self.bodies is None else good & _bodies_exist(self.bodies)
+
     def doubtful(self) -> dict[str, int]:
         """How many machines have what no rigid bodies on the ground can have, by what it is."""
         found = {}

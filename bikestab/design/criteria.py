@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.design.wanted import Asked
 from bikestab.design.wanted import Wanted as Wanted
 from bikestab.model import Floats
 from bikestab.spectrum import growth_rate_of
@@ -30,7 +31,7 @@ class Counted(NamedTuple):
         return np.asarray(self.counts.any(axis=-1))
 
 
-def counted(wanted: Wanted, table: Floats) -> Counted:
+def counted(wanted: Asked, table: Floats) -> Counted:
     """The stable intervals of tables (5, 4, *shape); arrays have shape (*shape, interval)."""
     found = intervals_of(table)
     counts = wanted.V_max > found.V1
@@ -39,14 +40,14 @@ def counted(wanted: Wanted, table: Floats) -> Counted:
     return Counted(found, counts, np.where(counts, np.minimum(found.V2, wanted.V_max) - found.V1, 0))
 
 
-def width(wanted: Wanted, x: Floats) -> Floats:
+def width(wanted: Asked, x: Floats) -> Floats:
     """Minus the widest interval [m/s] of designs x (2, S); smaller is better in each criterion."""
     table = wanted.table(wanted.within(x))
     widest = counted(wanted, table).width.max(axis=-1)
     return _or_miss(wanted, table, widest > 0, -widest)
 
 
-def lowest(wanted: Wanted, x: Floats) -> Floats:
+def lowest(wanted: Asked, x: Floats) -> Floats:
     """The lowest stable speed V1 [m/s]."""
     table = wanted.table(wanted.within(x))
     found = counted(wanted, table)
@@ -54,7 +55,7 @@ def lowest(wanted: Wanted, x: Floats) -> Floats:
     return _or_miss(wanted, table, np.isfinite(V1), V1)
 
 
-def decay(wanted: Wanted, x: Floats) -> Floats:
+def decay(wanted: Asked, x: Floats) -> Floats:
     """The growth rate [s⁻¹] as judged. Unstable designs are allowed unless stable speeds are asked for."""
     table = wanted.table(wanted.within(x))
     found = counted(wanted, table)
@@ -62,7 +63,7 @@ def decay(wanted: Wanted, x: Floats) -> Floats:
     return _or_miss(wanted, table, allowed, judged(wanted, table, found)[1])
 
 
-def width_and_decay(wanted: Wanted, x: Floats) -> Floats:
+def width_and_decay(wanted: Asked, x: Floats) -> Floats:
     """The widest interval [m/s], 0 without one, and the growth rate [s⁻¹] as judged; shape (2, S)."""
     table = wanted.table(wanted.within(x))
     found = counted(wanted, table)
@@ -70,13 +71,13 @@ def width_and_decay(wanted: Wanted, x: Floats) -> Floats:
     return np.stack([found.width.max(axis=-1), np.minimum(growth, WORSE / 2)])
 
 
-def width_if_decaying(wanted: Wanted, x: Floats) -> Floats:
+def width_if_decaying(wanted: Asked, x: Floats) -> Floats:
     """As ``width``, of designs that are stable at the judged speeds."""
     widest, growth = width_and_decay(wanted, x)
     return np.where((widest > 0) & (growth < 0), -widest, WORSE + np.maximum(growth, 0))
 
 
-def miss(wanted: Wanted, x: Floats) -> Floats:
+def miss(wanted: Asked, x: Floats) -> Floats:
     """How far [s⁻¹] designs are from being allowed, 0 where they are."""
     table = wanted.table(wanted.within(x))
     allowed = counted(wanted, table).any
@@ -84,7 +85,7 @@ def miss(wanted: Wanted, x: Floats) -> Floats:
 
 
 def judged(
-    wanted: Wanted, table: Floats, found: Counted, *, rounds: int | None = None
+    wanted: Asked, table: Floats, found: Counted, *, rounds: int | None = None
 ) -> tuple[Floats, Floats]:
     """The speed [m/s] at which each design of tables (5, 4, S) is judged, and its growth rate [s⁻¹] there.
 
@@ -127,14 +128,14 @@ def extreme(
     return best_V, best_rate
 
 
-def missed_by(wanted: Wanted, table: Floats, *, rounds: int = _COARSE) -> tuple[Floats, Floats]:
+def missed_by(wanted: Asked, table: Floats, *, rounds: int = _COARSE) -> tuple[Floats, Floats]:
     """The speed that decides how far from allowed a design is, and its growth rate [s⁻¹] there."""
     n = table.shape[-1]
     low, high = wanted.stable or (0.0, wanted.V_max)
     return extreme(table, np.full(n, low), np.full(n, high), worst=wanted.stable is not None, rounds=rounds)
 
 
-def _or_miss(wanted: Wanted, table: Floats, allowed: NDArray[np.bool_], values: Floats) -> Floats:
+def _or_miss(wanted: Asked, table: Floats, allowed: NDArray[np.bool_], values: Floats) -> Floats:
     """The values of allowed designs; for others WORSE and how far they are from allowed."""
     result = np.minimum(values, WORSE / 2)
     if not allowed.all():

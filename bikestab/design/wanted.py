@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -15,6 +16,19 @@ from bikestab.model import Floats
 
 Range = tuple[float, float]
 LAM_RANGE, SIGMA_RANGE, V_MAX = (0.0, 0.6), (0.0, 0.3), 30.0  # rad, 1, m/s
+
+
+class Asked(Protocol):
+    """Designs that can be judged, and what is asked of them: see ``Wanted``."""
+
+    @property
+    def V_max(self) -> float: ...
+    @property
+    def judged(self) -> Range | None: ...
+    @property
+    def stable(self) -> Range | None: ...
+    def within(self, x: Floats) -> Floats: ...
+    def table(self, x: Floats) -> Floats: ...
 
 
 @dataclass(frozen=True)

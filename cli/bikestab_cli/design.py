@@ -16,8 +16,10 @@ from bikestab_cli.options import (
     TRAIL_ENDS,
     Ends,
     check_files,
+    free_option,
     json_option,
     over_ends_option,
+    sd_option,
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
@@ -76,6 +78,8 @@ if TYPE_CHECKING:
     help="Intervals count up to here [m/s]; those that start above do not.",
 )
 @over_ends_option
+@free_option
+@sd_option
 @several_machines
 @click.option(
     "-o", "--output", type=FILE, metavar="FILE", help="Draw the plane of designs as PNG, PDF or SVG."
@@ -94,6 +98,8 @@ def command(
     stable: Ends | None,
     V_max: float,
     over: dict[str, Ends],
+    free: dict[str, Ends],
+    deviations: tuple[bool, dict[str, float]],
     bicycle_name: tuple[str, ...],
     changes: Values,
     model: Model,
@@ -109,6 +115,9 @@ def command(
 
     --over takes any two parameters instead: those of the bicycle's notation, a rider's, and lam, head_angle,
     sigma, trail, offset, delta; the rest is as the bicycle has it.
+
+    --free lets the search choose up to six parameters; with --sd and --stable it also finds the most robust
+    design: the largest ball, in these standard deviations, of machines stable at all the speeds asked for.
 
     Several --bicycle and several values of --set give one table, and one picture of their fronts, a curve
     each.
@@ -126,6 +135,8 @@ def command(
       bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5
       bikestab design --bicycle meijaard2007 --set mB=60,110 --V 5 -o fronts.png
       bikestab design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm -o loads.png
+      bikestab design --bicycle meijaard2007 --free lam=0.1:0.5 --free trail=2cm:15cm --free xB=0.2:0.4
+          --stable 4.6:5.4 --sd lam=0.5deg --sd trail=5mm --sd xB=1cm
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
     from bikestab_cli.design_words import told, told_all
@@ -136,6 +147,13 @@ def command(
     from bikestab.family import Family
     from bikestab.files import to_stdout
 
+    if free or any(deviations):
+        from bikestab_cli.free import check_free, tell_free
+
+        check_free(free, over or output or csv_file)
+        machines = machines_chosen(bicycle_name, delta, changes)
+        tell_free(machines, free, deviations, model, (V_max, judged, stable), as_json)
+        return
     x, y = _axes(over)
     if head_angle:
         lam = _tilts(head_angle)

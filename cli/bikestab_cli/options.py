@@ -158,6 +158,11 @@ over_ends_option = click.option(
     help="Search over these two parameters instead, e.g. --over mB=60:110 --over offset=0:80mm.",
 )  # fmt: skip
 
+free_option = click.option(
+    "--free", "free", multiple=True, metavar="NAME=START:STOP", callback=over_ends,
+    help="A parameter that the search may choose, e.g. --free lam=0.1:0.4 --free trail=2cm:15cm; up to six.",
+)  # fmt: skip
+
 sd_option = click.option(
     "--sd", "deviations", multiple=True, metavar="NAME=VALUE|file", callback=deviations_given,
     help="A parameter's standard deviation, e.g. --sd mB=1.5 --sd trail=5mm; file: all that the file gives "

@@ -131,3 +131,22 @@ def test_design_over_two_parameters(bikestab, tmp_path):
     assert max(map(len, out.splitlines())) <= 80
     code, _, err = bikestab("design", "--bicycle", "meijaard2007", *over[:2])
     assert (code, "--over is given twice, for two parameters" in err) == (2, True)
+
+
+def test_design_of_free_parameters(bikestab):
+    options = ["--free", "trail=2cm:15cm", "--free", "xB=0.2:0.4", "--stable", "4.6:5.4", "--sd", "mB=3"]
+    code, out, err = bikestab("design", "--bicycle", "meijaard2007", *options)
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    assert "most robust: every machine within" in out
+    code, out, _ = bikestab("design", "--bicycle", "meijaard2007", *options, "--json")
+    found = json.loads(out)["results"][0]
+    assert found["most_robust"]["radius"] > 3
+    assert found["widest"]["width"] > found["own"]["width"]
+    for wrong, words in (
+        (["--sd", "mB=3"], "--sd is for the most robust design of --free parameters"),
+        ([*options, "--lam", "0:0.3"], "--free says all that is searched"),
+        (["--free", "xB=0.2:0.4", "--sd", "mB=3"], "robust designs need speeds"),
+    ):
+        code, _, err = bikestab("design", "--bicycle", "meijaard2007", *wrong)
+        assert (code, words in err) == (2, True), err

@@ -1,0 +1,197 @@
+"""What is asked of designs in which up to six parameters of a machine are free, and the best of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any, NamedTuple, TypedDict
+
+import numpy as np
+from scipy.optimize import differential_evolution
+from scipy.stats import qmc
+
+from bikestab.bicycle import Bicycle
+from bikestab.design.ball import Ball, Robust, most_robust
+from bikestab.design.criteria import WORSE, counted, decay, judged, lowest, width
+from bikestab.design.optimum import finite
+from bikestab.errors import InputError
+from bikestab.limits import check_speed
+from bikestab.model import Floats, Model, characteristic_table
+from bikestab.records import Design, design_record
+from bikestab.speeds import KINDS
+from bikestab.variants import check_names, check_values, own_value, varied
+
+MOST_FREE = 6
+Range = tuple[float, float]
+_START = 1024  # designs that are tried first, a low-discrepancy sequence
+_POPULATION, _ROUNDS = 40, 60
+_SEED = 1981
+
+
+@dataclass(frozen=True)
+class Free:
+    """A box of designs: the ends of each free parameter, by its name; speeds as in ``Wanted``.
+
+    Raises InputError, with the parameter's name as key, for what the bicycle does not have or no machine can
+    have, and for more than six.
+    """
+
+    bicycle: Bicycle
+    ends: Mapping[str, Range]
+    model: Model = "refined"
+    V_max: float = 30.0
+    judged: Range | None = None
+    stable: Range | None = None
+
+    def __post_init__(self) -> None:
+        if not 1 <= len(self.ends) <= MOST_FREE:
+            hint = f"allowed: 1 to {MOST_FREE}"
+            raise InputError(f"{len(self.ends)} parameters cannot be free", key=("free",), hint=hint)
+        check_names(self.bicycle, {name: name for name in self.ends})
+        for which in range(2 ** len(self.ends)):
+            corner = {name: ends[which >> i & 1] for i, (name, ends) in enumerate(self.ends.items())}
+            check_values(self.bicycle, corner)
+        for name, speeds in (("judged", self.judged), ("stable", self.stable)):
+            for V in speeds or ():
+                check_speed(V, (name,))
+        if self.stable and self.stable[1] > self.V_max:
+            hint = f"raise V_max to {self.stable[1]:g} at least"
+            raise InputError(
+                f"{self.stable[1]:g} m/s is above {self.V_max:g} m/s", key=("stable",), hint=hint
+            )
+
+    @property
+    def box(self) -> tuple[Floats, Floats]:
+        """The lowest and the highest of each parameter."""
+        low, high = np.array(list(self.ends.values()), dtype=float).T
+        return low, high
+
+    def within(self, x: Floats) -> Floats:
+        """Points (n, *shape) moved into the box."""
+        low, high = (end.reshape(-1, *(1,) * (x.ndim - 1)) for end in self.box)
+        return np.clip(x, low, high)
+
+    def table(self, x: Floats) -> Floats:
+        """Characteristic tables of designs x (n, *shape)."""
+        machine, lam, sigma = varied(self.bicycle, dict(zip(self.ends, x, strict=True)))
+        lam, sigma = (np.broadcast_to(value, x.shape[1:]) for value in (lam, sigma))
+        return characteristic_table(machine, lam, sigma, model=self.model)
+
+    @cached_property
+    def first(self) -> Floats:
+        """Designs (n, S) spread evenly over the box, the bicycle's own among them where it is inside."""
+        low, high = self.box
+        unit = qmc.Sobol(len(self.ends), rng=_SEED).random(_START)
+        points = low + (high - low) * unit
+        if (own := self.own) is not None and np.all((low <= own) & (own <= high)):
+            points[0] = own
+        return points.T
+
+    @property
+    def own(self) -> Floats | None:
+        """The bicycle's own design (n,); None where it has none."""
+        own = [own_value(self.bicycle, name) for name in self.ends]
+        return None if None in own else np.array(own, dtype=float)
+
+
+class FreeDesign(Design):
+    """A design, its free ``values``, its widest stable interval, and the growth rate as judged."""
+
+    values: dict[str, float]
+    V1: float | None
+    V2: float | None
+    lower: str | None
+    upper: str | None
+    width: float
+    growth_rate: float | None
+    V: float
+
+
+class RobustDesign(TypedDict):
+    """The design with the largest ball of stable machines around it, in standard deviations.
+
+    ``radius`` is that of the ball; at ``nearest``, a machine on its surface, the interval of speeds is lost.
+    """
+
+    design: FreeDesign
+    radius: float
+    nearest: dict[str, float]
+
+
+class FreeBest(NamedTuple):
+    """The own design and the optima, None where there is none."""
+
+    own: FreeDesign | None
+    widest: FreeDesign | None
+    lowest_V1: FreeDesign | None
+    fastest_decay: FreeDesign | None
+    most_robust: RobustDesign | None
+
+
+def best_free(free: Free, deviations: Mapping[str, float] | None = None) -> FreeBest:
+    """The best designs; the most robust one where standard deviations and ``stable`` speeds are given.
+
+    InputError, with the key ``sd``, for deviations without speeds, and for what the bicycle does not have.
+    """
+    robust = None
+    if deviations:
+        if free.stable is None:
+            hint = "for example stable from 4.5 to 5.5 m/s"
+            raise InputError("robust designs need speeds to be stable at", key=("stable",), hint=hint)
+        ball = Ball(free.bicycle, free.model, free.stable, free.ends, deviations)
+        if found := most_robust(ball, free.first):
+            robust = _robust_design(free, found)
+    optima = [best_of(free, criterion) for criterion in (width, lowest, decay)]
+    widest, low, fast = (None if value >= WORSE else free_design(free, x) for x, value in optima)
+    own = None if free.own is None else free_design(free, free.own)
+    return FreeBest(own, widest, low, fast, robust)
+
+
+def best_of(free: Free, criterion: Any) -> tuple[Floats, float]:
+    """The design (n,) with the smallest value of a criterion, and that value; the same each time.
+
+    Differential evolution from the best of evenly spread designs, then random steps that shrink: optima
+    lie at kinks and rims, where gradients mislead.
+    """
+    low, high = free.box
+    random = np.random.default_rng(_SEED)
+    start = free.first[:, np.argsort(criterion(free, free.first), kind="stable")[:_POPULATION]].T
+    cost = partial(criterion, free)
+    beyond = 0.05 * (high - low)
+    end = differential_evolution(
+        cost, list(zip(low - beyond, high + beyond, strict=True)), init=start, vectorized=True,
+        updating="deferred", polish=False, rng=random, maxiter=_ROUNDS, tol=0, atol=1e-9,
+        mutation=(0.4, 0.9), recombination=0.9,
+    )  # fmt: skip
+    x, value, size = free.within(end.x), float(end.fun), 0.01
+    while size > 1e-10:
+        away = random.standard_normal((_POPULATION, len(low))) * random.choice([0.1, 1, 1], (_POPULATION, 1))
+        points = free.within(x[:, np.newaxis] + size * (high - low)[:, np.newaxis] * away.T)
+        values = cost(points)
+        k = int(np.argmin(values))
+        if values[k] < value:
+            x, value = points[:, k], float(values[k])
+        else:
+            size *= 0.5
+    return x, value
+
+
+def free_design(free: Free, x: Floats) -> FreeDesign:
+    """A design (n,) as a record."""
+    found = counted(free, free.table(x[:, np.newaxis]))
+    V, rate = judged(free, free.table(x[:, np.newaxis]), found, rounds=7)
+    k = int(np.argmax(np.where(found.counts, found.width, -1)[0]))
+    V1, V2, lower, upper = (values[0, k] for values in found.intervals)
+    machine, lam, sigma = varied(free.bicycle, dict(zip(free.ends, x.tolist(), strict=True)))
+    return {
+        **design_record(float(lam), float(sigma), machine),
+        "values": dict(zip(free.ends, x.tolist(), strict=True)),
+        "V1": finite(V1), "V2": finite(V2),
+        "lower": KINDS[lower] if upper else None, "upper": KINDS[upper] if upper else None,
+        "width": float(found.width[0, k]), "growth_rate": finite(rate[0]), "V": float(V[0]),
+    }  # fmt: skip
+
+
+def _robust_design(free: Free, robust: Robust) -> RobustDesign:
+    return {"design": free_design(free, robust.x), "radius": robust.radius, "nearest": robust.nearest}

@@ -1,0 +1,107 @@
+"""The options --free and --sd of ``design``: the best designs of several free parameters, a column each."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+from bikestab_cli.options import Ends, told_as_options
+from bikestab_cli.output import heading, print_json, prose, table, within
+from bikestab_cli.several import Chosen, record_of
+
+from bikestab.variants import parameter_of
+
+if TYPE_CHECKING:
+    from bikestab.design.free import Free, FreeBest, FreeDesign
+    from bikestab.model import Model
+
+
+def check_free(free: dict[str, Ends], others: object) -> None:
+    """Refuse options that leave others unheeded."""
+    context = click.get_current_context()
+    if not free:
+        raise click.UsageError("--sd is for the most robust design of --free parameters", context)
+    fixed = ("lam", "sigma", "trail", "head_angle", "offset")
+    default = click.core.ParameterSource.DEFAULT
+    if others or any(context.get_parameter_source(name) != default for name in fixed):
+        problem = (
+            "--free says all that is searched: leave out the options of tilt and trail, --over, -o, --csv"
+        )
+        raise click.UsageError(problem, context)
+
+
+def tell_free(
+    machines: list[Chosen], ends: dict[str, Ends], deviations: tuple[bool, dict[str, float]], model: Model,
+    speeds: tuple[float, Ends | None, Ends | None], as_json: bool,
+) -> None:  # fmt: skip
+    """Search over several free parameters and tell what was found."""
+    from bikestab.design.free import Free, best_free
+
+    V_max, judged, stable = speeds
+    of_file, given = deviations
+    named = dict.fromkeys(ends, "--free")
+    results, told = [], []
+    for machine in machines:
+        known = {name: sd for name, sd in machine.bicycle.deviations.items() if sd > 0} if of_file else {}
+        with told_as_options(judged="--V", V_max="--V-max", **named):
+            free = Free(machine.bicycle, ends, model, V_max, judged, stable)
+            best = best_free(free, {**known, **given})
+        searched = {**ends, "V_max": V_max, "judged": judged, "stable": stable}
+        results.append([{"searched": searched, **best._asdict()}])
+        told.append(told_free(free, best, machine.changes))
+    if as_json:
+        print_json(record_of(machines, model, results))
+    else:
+        click.echo("\n\n".join(told))
+
+
+def told_free(free: Free, best: FreeBest, changes: str) -> str:
+    """What was searched, the optima, and how robust the last of them is."""
+    changed = f" ({changes})" if changes else ""
+    ranges = []
+    for name, (low, high) in free.ends.items():
+        unit = parameter_of(free.bicycle, name).unit
+        ranges.append(f"{name} = {low:.6g} ... {high:.6g} {unit}".removesuffix(" 1"))
+    stable = f"; stable from {free.stable[0]:g} to {free.stable[1]:g} m/s" if free.stable else ""
+    parts = [f"{heading(free.bicycle, free.model)}{changed}\nsearched: {', '.join(ranges)}{stable}"]
+    optima = {"own": best.own, "widest": best.widest, "lowest\nV1": best.lowest_V1}
+    optima |= {"fastest\ndecay": best.fastest_decay}
+    if best.most_robust:
+        optima["most\nrobust"] = best.most_robust["design"]
+    found = {name: design for name, design in optima.items() if design}
+    if not (best.widest or best.lowest_V1):
+        parts.append("no design was found that is stable as asked; larger ranges of --free may help")
+    if found:
+        parts.append(table(["", *found], _rows(free, list(found.values()))))
+    if best.most_robust:
+        robust = best.most_robust
+        at = ", ".join(f"{name} = {value:.6g}" for name, value in robust["nearest"].items())
+        parts.append(
+            f"most robust: every machine within {robust['radius']:.4g} standard deviations of it is stable "
+            f"at these speeds; the nearest that is not has {at}"
+        )
+    return "\n\n".join(map(prose, parts))
+
+
+def _rows(free: Free, designs: list[FreeDesign]) -> list[list[str]]:
+    rows = []
+    for name in free.ends:
+        unit = parameter_of(free.bicycle, name).unit
+        rows.append(
+            [f"{name} [{unit}]".removesuffix(" [1]"), *(within(d["values"][name], 9) for d in designs)]
+        )
+    rows.append(["head angle [°]", *(f"{d['head_angle_deg']:.3f}" for d in designs)])
+    rows += [[f"{key} [m]", *(f"{value:z.4f}" for value in values)] for key, values in (
+        ("trail", [d["trail"] for d in designs]), ("offset", [d["offset"] for d in designs])
+    ) if key not in free.ends]  # fmt: skip
+    for end, kind in (("V1", "lower"), ("V2", "upper")):
+        shown: list[str] = []
+        for d in designs:
+            V = d["V1"] if end == "V1" else d["V2"]
+            word = d["lower"] if kind == "lower" else d["upper"]
+            shown.append(f"{V:.5f}\n{word}" if V is not None else word or "none")
+        rows.append([f"{end} [m/s]", *shown])
+    rows.append(["width [m/s]", *(f"{d['width']:.5f}" for d in designs)])
+    rates = (("inf" if d["growth_rate"] is None else f"{d['growth_rate']:z.5f}", d["V"]) for d in designs)
+    rows.append(["growth [1/s]\nat [m/s]", *(f"{rate}\n{V:.4f}" for rate, V in rates)])
+    return rows
