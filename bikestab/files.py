@@ -5,10 +5,8 @@ from __future__ import annotations
 import errno
 import os
 import re
-import shutil
 import stat
 import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -38,6 +36,8 @@ def written(path: str | Path) -> Iterator[Path]:
     try:
         there = _status(path)
         if there and (descriptor := _descriptor(path, there)) is not None:
+            import tempfile  # few files are pipes
+
             with open(descriptor, "wb") as sink, tempfile.TemporaryDirectory() as folder:  # noqa: PTH123  # open
                 part = Path(folder, "part" + Path(path).suffix[:16])
                 yield part
@@ -158,6 +158,8 @@ def _descriptor(path: str | Path, there: os.stat_result) -> int | None:
 
 
 def _pour(part: Path, sink: BinaryIO) -> None:
+    import shutil
+
     if sys.stdout is not None:
         sys.stdout.flush()  # what was printed before comes first
     with part.open("rb") as source:

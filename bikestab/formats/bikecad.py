@@ -14,17 +14,10 @@ from bikestab.errors import InputError
 from bikestab.geometry import trail_from
 from bikestab.notation import MEIJAARD, OPTIONAL
 
-_HEAD = 1000
 _ENTRY = re.compile(r'<entry\s+key="([^"]*)"\s*>([^<]*)</entry>')
 _STACK_AND_REACH = 3  # of the ways in which the front of a frame is given
 _GEOMETRY = {"w", "c", "lam", "rR", "rF"}
 _WORDS = {"offset": "fork offset", "c": "trail", "w": "wheelbase"}
-
-
-def looks_like(text: str | bytes) -> bool:
-    """Whether the head of a file is that of such properties."""
-    sign = "<!DOCTYPE properties"
-    return sign in text[:_HEAD] if isinstance(text, str) else sign.encode() in text[:_HEAD]
 
 
 def refused(text: str, file: str) -> InputError:

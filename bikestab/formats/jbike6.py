@@ -9,7 +9,6 @@ steering axis, v up along it.
 from __future__ import annotations
 
 import math
-import re
 from typing import NamedTuple
 
 from bikestab.errors import InputError
@@ -21,7 +20,6 @@ from bikestab.units import shown
 
 GRAVITY = 9.80665  # m/s²: the program's own; files of bicycles have none
 _REAR, _FRONT = ("frame", "rack"), ("fork", "basket")
-_SIGN = re.compile(r"^\s*D(?:rear|front)wheel\s*=", re.MULTILINE)
 _AXES = ("xx", "yy", "zz", "xz")
 _DEGREES = math.pi / 180
 _SAME = 1e-9  # relative, of a wheel's two moments
@@ -43,11 +41,6 @@ class Body(NamedTuple):
     yy: float
     zz: float
     xz: float
-
-
-def looks_like(text: str) -> bool:
-    """Whether this is such a script."""
-    return bool(_SIGN.search(text))
 
 
 def read(text: str, file: str) -> Found:

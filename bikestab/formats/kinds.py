@@ -8,7 +8,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from bikestab.errors import InputError
-from bikestab.formats import bikecad, jbike6
 from bikestab.texts import is_file
 
 KINDS = {  # what it is called, and what takes it
@@ -30,8 +29,19 @@ _TOLD_BY_READER = {("bicycle", "bikecad")}
 _HEAD = 65536  # bytes that are looked at
 _PICTURES = (b"\x89PNG", b"%PDF", b"\xff\xd8\xff", b"GIF8")
 _KEY = re.compile(r"(?:^|[{,])[ \t\"']*(\w+)[\"']?[ \t]*[:=]", re.MULTILINE)
+_DIAMETER = re.compile(r"^[ \t]*D(?:rear|front)wheel[ \t]*=", re.MULTILINE)
 _OF_BICYCLES = ({"w", "mB"}, {"m1", "h1"}, {"w", "kHaa"}, {"mB", "TtB1"})
 _RIDER = {"mB", "xB", "zB", "IBxx", "IBzz", "IBxz"}
+
+
+def is_bikecad(head: bytes) -> bool:
+    """Whether a file that begins so is Java's properties as XML, as BikeCAD saves a design."""
+    return b"<!DOCTYPE properties" in head[:1000]
+
+
+def is_jbike6(text: str) -> bool:
+    """Whether a text assigns the diameter of a wheel, as JBike6 does where it saves a bicycle."""
+    return bool(_DIAMETER.search(text))
 
 
 def kind_of(path: str | Path) -> str:
@@ -43,7 +53,7 @@ def kind_of(path: str | Path) -> str:
                 head = file.read(_HEAD)
     if head.startswith(b"\x89HDF"):
         return "volume"
-    if bikecad.looks_like(head):
+    if is_bikecad(head):
         return "bikecad"
     if head.startswith(_PICTURES) or b"<svg" in head[:1000]:
         return "picture"
@@ -51,7 +61,7 @@ def kind_of(path: str | Path) -> str:
     keys = set(_KEY.findall(text))
     if "bicycle" in keys and keys & {"grid", "expect"}:
         return "config"
-    if any(pair <= keys for pair in _OF_BICYCLES) or jbike6.looks_like(text):
+    if any(pair <= keys for pair in _OF_BICYCLES) or is_jbike6(text):
         return "bicycle"
     if keys & {"somersault", "measurementconversionfactor"}:
         return "yeadon"

@@ -44,11 +44,6 @@ _OPTIONAL = {"g", "ic22", "ie22", *_MUST_BE}
 _SAME = 1e-6
 
 
-def looks_like(values: Mapping[Any, Any]) -> bool:
-    """Whether these are keys of this notation."""
-    return {"ie33", "l4"} <= values.keys()
-
-
 def converted(values: Mapping[Any, Any]) -> dict[str, float]:
     """The 25 parameters; InputError, with its key, for a mistake, and for bodies that are not symmetric."""
     n = quantities(values, MOORE2012, optional=_OPTIONAL, ignored=IGNORED)

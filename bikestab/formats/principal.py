@@ -32,11 +32,6 @@ PRINCIPAL |= {f"r{_body}": f"radius of the {_name} [m]" for _body, _name in _WHE
 IGNORED = {"lP", "wP"}  # length and width of a rider that is drawn
 
 
-def looks_like(values: Mapping[Any, Any]) -> bool:
-    """Whether these are keys of this notation."""
-    return {"kHaa", "alphaH"} <= values.keys()
-
-
 def converted(values: Mapping[Any, Any]) -> dict[str, float]:
     """The 25 parameters, with ``rider.m`` and so on of the rider; InputError, with its key, for a mistake."""
     n = quantities(values, PRINCIPAL, optional={"g"}, ignored=IGNORED)

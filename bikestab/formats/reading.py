@@ -9,10 +9,10 @@ from typing import Any, TypeAlias
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
-from bikestab.formats import bikecad, equalities, jbike6, measured, moore2012, principal
+from bikestab.formats import equalities, measured
 from bikestab.formats.extras import without_extras
 from bikestab.formats.found import Found
-from bikestab.formats.kinds import expected
+from bikestab.formats.kinds import expected, is_bikecad, is_jbike6
 from bikestab.rider import flattened
 from bikestab.texts import read_text
 
@@ -26,9 +26,13 @@ def read(path: str | Path) -> Found:
     """The parameters in the file at ``path``; InputError names file, line, key and value."""
     text = read_text(path)
     file = str(path)
-    if bikecad.looks_like(text):
+    if is_bikecad(text[:1000].encode()):
+        from bikestab.formats import bikecad  # readers are loaded for what they read
+
         raise bikecad.refused(text, file)
-    if jbike6.looks_like(text):
+    if is_jbike6(text):
+        from bikestab.formats import jbike6
+
         return jbike6.read(text, file)
     return _from_equalities(text, file) if equalities.looks_like(text) else _from_yaml(text, file)
 
@@ -129,7 +133,9 @@ def _settled(
     values: Mapping[Any, Any], located: Located, deviations: Mapping[str, float]
 ) -> tuple[dict[Any, Any], list[str]]:
     """The parameters alone, and notes on what else there was."""
-    if moore2012.looks_like(values):
+    if values.keys() >= {"ie33", "l4"}:
+        from bikestab.formats import moore2012
+
         return _converted(moore2012, values, located, deviations, ["from axes along the steering axis"])
     try:
         kept, notes = without_extras(values)
@@ -137,7 +143,9 @@ def _settled(
         raise located(error) from None
     if values and not kept:
         raise located(InputError(f"has no parameter of a bicycle: {', '.join(map(str, values))}"))
-    if principal.looks_like(kept):
+    if kept.keys() >= {"kHaa", "alphaH"}:
+        from bikestab.formats import principal
+
         notes.append("from principal axes; its body P is the rider")
         return _converted(principal, kept, located, deviations, notes)
     return kept, notes
