@@ -75,7 +75,7 @@ def command(
             with of_file(name):
                 result, pictures = _run(name, config, force, jobs, scheduler or "", quiet)
                 page = _page(result.path) if report else None
-            done.append({**_summary(name, config, result, pictures), **({"report": page} if page else {})})
+            done.append(_summary(name, config, result, pictures, page))
             if not as_json:
                 click.echo(_line(name, result, pictures, time.perf_counter() - start))
     finally:
@@ -154,12 +154,15 @@ def _line(name: str, result: ScanResult, pictures: list[Path], seconds: float) -
     return f"{name}: {result.path}{drawn}: {share}; {agree}; {seconds:.1f} s"
 
 
-def _summary(name: str, config: ScanConfig, result: ScanResult, pictures: list[Path]) -> dict[str, object]:
+def _summary(
+    name: str, config: ScanConfig, result: ScanResult, pictures: list[Path], page: str | None
+) -> dict[str, object]:
     return {
         "config": name,
         "bicycle": config.machine.name,
         "volume": str(result.path),
         "pictures": [str(p) for p in pictures],
+        "report": page,
         "computed": result.computed,
         "points": result.points,
         "stable_points": result.stable_points,

@@ -188,7 +188,9 @@ SCHEMAS: dict[str, Schema] = {
         record(
             "a config", config=words("the file"), bicycle=words("its bicycle"),
             volume=words("the file written"),
-            pictures=some(TEXTS, "files drawn"), computed=flag("false: it was complete already"),
+            pictures=some(TEXTS, "files drawn"),
+            report={"type": ["string", "null"], "description": "the page written; null: none is asked for"},
+            computed=flag("false: it was complete already"),
             points=whole("of the grid"), stable_points=whole("of these"),
             largest_boundary_difference=maybe("between conditions' signs and exact speeds [m/s]"),
             bracketed_zeros={"type": ["integer", "null"], "description": "found by scipy too"},
