@@ -1,4 +1,4 @@
-"""Compiles ``bikestab/growth.c`` where a C compiler is and leaves it out elsewhere: hatchling's build hook.
+"""Compiles ``bikestab/*.c`` where a C compiler is and leaves it out elsewhere: hatchling's build hook.
 
 `python hatch_build.py` does so within the source tree.
 """
@@ -12,8 +12,8 @@ import sysconfig
 import tempfile
 from pathlib import Path
 
-SOURCE = Path(__file__).parent / "bikestab" / "growth.c"
-NAME = "bikestab/growth.so"
+SOURCES = sorted((Path(__file__).parent / "bikestab").glob("*.c"))
+NAME = "bikestab/kernels.so"
 # no fused multiply-adds: the same bits on every machine; the others let loops become vectors
 FLAGS = "-std=c11 -O3 -fno-math-errno -fno-trapping-math -ffp-contract=off -fPIC -shared"
 LINKED = "-lm"
@@ -24,7 +24,7 @@ def compiled(target: Path) -> bool:
     named = os.environ.get("CC")
     for compiler in [named] if named else [sysconfig.get_config_var("CC") or "cc", "cc"]:
         try:
-            command = [*shlex.split(compiler), *FLAGS.split(), "-o", str(target), str(SOURCE), LINKED]
+            command = [*shlex.split(compiler), *FLAGS.split(), "-o", str(target), *map(str, SOURCES), LINKED]
             subprocess.run(command, check=True, capture_output=True, timeout=300)
         except (OSError, ValueError, subprocess.SubprocessError):
             continue
@@ -46,7 +46,7 @@ class CustomBuildHook(BuildHookInterface):
             compiled(Path(self.root, NAME))
             return
         self._folder = tempfile.TemporaryDirectory()
-        library = Path(self._folder.name, "growth.so")
+        library = Path(self._folder.name, "kernels.so")
         if compiled(library):
             build_data["pure_python"] = False
             platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")

@@ -1,8 +1,9 @@
-"""(table, V) → growth rates in single precision by ``growth.c``, where it was compiled.
+"""(table, V) → growth rates in single precision, table → stable speeds in double, where C was compiled.
 
-``spectrum`` is the reference. The two factors are followed along the speeds from every START-th one, so that
-a value depends on its own and at most START − 1 lower speeds of the grid; where that does not settle, the
-reference's value is taken.
+``spectrum`` and ``speeds`` are the references. The two factors that growth rates come from are followed along
+the speeds from every START-th one, so that a value depends on its own and at most START − 1 lower speeds of
+the grid. Where that does not settle, and where rounding might decide over an interval, the reference's value
+is taken.
 """
 
 from __future__ import annotations
@@ -15,15 +16,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.entries import DAMPED
 from bikestab.errors import InputError
 from bikestab.model import Floats
 from bikestab.polynomials import value_of_cubics
 from bikestab.quartic import split
 from bikestab.spectrum import growth_rate_of
+from bikestab.speeds import intervals_of
 
-LIBRARY = Path(__file__).with_name("growth.so")
+LIBRARY = Path(__file__).with_name("kernels.so")
 START = 32  # speeds; divides those of a tile of a scan
 _LANES = 16  # as in growth.c
+_MOST = 4  # as in intervals.c
 _CELLS = 1 << 12  # worked on at a time
 _AGAIN = 1 << 14
 
@@ -66,6 +70,29 @@ def growth_rates(table: Floats, V: Floats) -> NDArray[np.float32]:
                 at = cell[n : n + _AGAIN], k[n : n + _AGAIN]
                 rates[at] = growth_rate_of(part[..., at[0]], V[at[1]])
     return out
+
+
+def stable_speeds(table: Floats) -> tuple[Floats, Floats]:
+    """V1 and V2 [m/s] of the stable intervals of a table (5, 4, *shape); shape (*shape, interval).
+
+    NaN behind the last. Within 1e-9 of the reference's, mostly 1e-15. Raises InputError without the kernel.
+    """
+    check_available()
+    shape = table.shape[2:]
+    table = np.ascontiguousarray(table.reshape(5, 4, -1))
+    V1, V2 = np.empty((2, table.shape[-1], _MOST))
+    sure = np.zeros(table.shape[-1], np.uint8)
+    if not any(table[key].any() for key in np.ndindex(5, 4) if key not in DAMPED):
+        _library().intervals(
+            _address(table), ctypes.c_long(table.shape[-1]), _address(V1), _address(V2), _address(sure)
+        )
+    poor = np.flatnonzero(sure == 0)
+    if len(poor):
+        found = intervals_of(table[..., poor])
+        V1[poor], V2[poor] = np.nan, np.nan
+        V1[poor, : found.V1.shape[-1]], V2[poor, : found.V1.shape[-1]] = found.V1, found.V2
+    most = max(1, int(np.count_nonzero(~np.isnan(V1).all(axis=0))))
+    return V1[:, :most].reshape(*shape, most), V2[:, :most].reshape(*shape, most)
 
 
 def _follow(table: Floats, V: Floats, out: NDArray[np.float32]) -> None:

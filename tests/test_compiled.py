@@ -16,9 +16,12 @@ from bikestab import compiled, yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.config.file import parse_config
 from bikestab.errors import InputError
-from bikestab.model import exact_table
+from bikestab.family import Family
+from bikestab.model import characteristic_table, exact_table
+from bikestab.scan.ensemble import ensemble_statistics
 from bikestab.scan.run import run_scan
 from bikestab.spectrum import eigenvalues_of, growth_rate_of
+from bikestab.speeds import intervals_of
 from bikestab.volume import Volume
 from tests.strategies import machines
 
@@ -110,6 +113,63 @@ def test_what_is_no_quartic_is_left_to_the_reference():
     assert np.all(np.isfinite(found[[0, 3]]))
 
 
+# --- stable speeds
+
+
+def assert_same_intervals(table):
+    V1, V2 = compiled.stable_speeds(table)
+    expected = intervals_of(table)
+    most = expected.V1.shape[-1]
+    assert V1.shape == V2.shape == expected.V1.shape
+    for found, end in ((V1, expected.V1), (V2, expected.V2)):
+        np.testing.assert_array_equal(np.isnan(found), np.isnan(end[..., :most]))
+        np.testing.assert_allclose(found, end, rtol=1e-9, atol=1e-9)
+
+
+@needed
+@pytest.mark.parametrize("delta", [0, 1e-3, 1.0, 30.0])
+@pytest.mark.parametrize("name", NAMES)
+def test_stable_speeds_of_usual_machines(name, delta):
+    assert_same_intervals(table_of(Bicycle.preset(name).with_delta(delta), 40, 41, 0.9).reshape(5, 4, 40, 41))
+
+
+@needed
+@settings(max_examples=100, deadline=None, derandomize=True)
+@given(machine=machines, delta=st.just(0.0) | st.floats(1e-9, 30))
+def test_stable_speeds_of_random_machines(machine, delta):
+    assert_same_intervals(table_of(Bicycle.from_mapping({**machine, "delta": delta}), 5, 6, 0.9))
+
+
+@needed
+def test_stable_speeds_published():
+    """Of the benchmark bicycle, to 40 digits in Meijaard et al. (2007) and after."""
+    bicycle = Bicycle.preset("meijaard2007")
+    V1, V2 = compiled.stable_speeds(characteristic_table(bicycle, bicycle.lam, bicycle.sigma))
+    assert (V1[0], V2[0]) == pytest.approx((4.2923825363411, 6.0242620153884), rel=1e-13)
+
+
+@needed
+def test_tables_of_other_systems_are_left_to_the_reference():
+    table = table_of(Bicycle.preset("meijaard2007"))
+    table[2, 1] = 0.3
+    table[0, :, 3] = 0
+    assert_same_intervals(table)
+
+
+@needed
+@pytest.mark.parametrize("delta", [0, 0.8])
+def test_ensembles(delta):
+    bicycle = Bicycle.preset("meijaard2007").with_delta(delta)
+    random = np.random.default_rng(4)
+    draws = {"mB": random.normal(85, 9, 300), "xB": random.normal(0.3, 0.03, 300)}
+    cells = np.repeat(np.linspace(0.1, 0.5, 4), 3), np.tile(np.linspace(0.03, 0.12, 3), 4)
+    arguments = Family(bicycle), draws, *cells, np.linspace(0, 12, 40), [0.1, 0.5, 0.9]
+    for found, expected in zip(
+        ensemble_statistics(*arguments, fast=True), ensemble_statistics(*arguments), strict=True
+    ):
+        np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
 # --- in a scan
 
 
@@ -178,11 +238,11 @@ def hook(target, **variables):
 
 @pytest.mark.parametrize("compiler", ["false", "no-such-compiler", "'unclosed"])
 def test_a_build_goes_on_without_a_compiler(tmp_path, compiler):
-    assert hook(tmp_path / "growth.so", CC=compiler) == "False"
+    assert hook(tmp_path / "kernels.so", CC=compiler) == "False"
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.skipif(not shutil.which("cc"), reason="there is no C compiler")
 def test_a_build_with_a_compiler_has_it(tmp_path):
-    assert hook(tmp_path / "growth.so", CC="cc") == "True"
-    assert (tmp_path / "growth.so").stat().st_size > 1000
+    assert hook(tmp_path / "kernels.so", CC="cc") == "True"
+    assert (tmp_path / "kernels.so").stat().st_size > 1000

@@ -110,7 +110,8 @@ class ScanConfig(Strict):
         "growth_rate",
     ]
     fast: Annotated[
-        bool, Field(strict=True, description="growth_rate by the compiled kernel, the same within 1e-7")
+        bool,
+        Field(strict=True, description="growth_rate and ensembles by the compiled kernel"),
     ] = False
     sweep: Annotated[
         dict[str, NumberAxis],
@@ -179,8 +180,8 @@ class ScanConfig(Strict):
 
     @property
     def compiled(self) -> bool:
-        """Whether there are growth rates, and the compiled kernel computes them."""
-        return self.fast and "growth_rate" in self.fields
+        """Whether there is what the compiled kernel computes, growth rates or an ensemble, and it shall."""
+        return self.fast and ("growth_rate" in self.fields or self.ensemble is not None)
 
     @property
     def heading(self) -> str:

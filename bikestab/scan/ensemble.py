@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.compiled import stable_speeds
 from bikestab.family import Family
 from bikestab.model import Floats
-from bikestab.speeds import Intervals, intervals_of
+from bikestab.speeds import intervals_of
 
 _PAIRS = 1 << 15  # of a machine and a (λ, σ), worked on at a time: some 20 MB
 
@@ -37,18 +38,19 @@ class Statistics(NamedTuple):
 
 
 def ensemble_statistics(
-    family: Family, draws: Mapping[str, Floats], x: Floats, y: Floats, V: Floats, quantiles: Sequence[float]
-) -> Statistics:
+    family: Family, draws: Mapping[str, Floats], x: Floats, y: Floats, V: Floats, quantiles: Sequence[float],
+    *, fast: bool = False,
+) -> Statistics:  # fmt: skip
     """Statistics of machines at the cells x and y of a family, both (cell,), and at ascending speeds V [m/s].
 
     ``draws`` are values (machine,) of the parameters that are drawn, by their names; all others, and the
     family's two, are those of the cell.
     ``quantiles`` lie between 0 and 1. Of two intervals of equal width the lower counts as the widest.
-    Needs memory for the result and for 16 bytes per machine.
+    Needs memory for the result and for 16 bytes per machine. ``fast`` takes the compiled kernel's intervals.
     """
     step = max(_PAIRS // _number(draws), 1)
     parts = [
-        _of_cells(family, draws, x[start : start + step], y[start : start + step], V, quantiles)
+        _of_cells(family, draws, x[start : start + step], y[start : start + step], V, quantiles, fast)
         for start in range(0, len(x), step)
     ]
     return Statistics(*(np.concatenate(values) for values in zip(*parts, strict=True)))
@@ -59,8 +61,9 @@ def _number(draws: Mapping[str, Floats]) -> int:
 
 
 def _of_cells(
-    family: Family, draws: Mapping[str, Floats], x: Floats, y: Floats, V: Floats, quantiles: Sequence[float]
-) -> Statistics:
+    family: Family, draws: Mapping[str, Floats], x: Floats, y: Floats, V: Floats, quantiles: Sequence[float],
+    fast: bool,
+) -> Statistics:  # fmt: skip
     number, cells = _number(draws), len(x)
     V1, V2 = np.empty((2, cells, number))
     steps = np.zeros((cells, len(V) + 1), np.int64)
@@ -69,10 +72,10 @@ def _of_cells(
     for start in range(0, number, step):
         part = slice(start, start + step)
         drawn = {name: values[part, np.newaxis] for name, values in draws.items()}
-        intervals = intervals_of(family.quick_table(x, y, drawn))
-        V1[:, part], V2[:, part] = _widest(intervals)
-        steps += _steps(intervals, V)
-        unbounded += np.count_nonzero(np.isinf(intervals.V2), axis=(0, 2))
+        lower, upper = _stable(family.quick_table(x, y, drawn), fast)
+        V1[:, part], V2[:, part] = _widest(lower, upper)
+        steps += _steps(lower, upper, V)
+        unbounded += np.count_nonzero(np.isinf(upper), axis=(0, 2))
     stable = np.count_nonzero(np.isfinite(V1), axis=1)
     return Statistics(
         probability=(np.cumsum(steps, axis=1)[:, :-1] / number).astype(np.float32),
@@ -83,22 +86,30 @@ def _of_cells(
     )
 
 
-def _widest(intervals: Intervals) -> tuple[Floats, Floats]:
+def _stable(table: Floats, fast: bool) -> tuple[Floats, Floats]:
+    """V1 and V2 (machine, cell, interval) of every stable interval."""
+    if fast:
+        return stable_speeds(table)
+    found = intervals_of(table)
+    return found.V1, found.V2
+
+
+def _widest(lower: Floats, upper: Floats) -> tuple[Floats, Floats]:
     """V1 and V2 (cell, machine) of the widest of each machine's intervals (machine, cell, interval)."""
-    width = np.where(intervals.upper > 0, intervals.V2 - intervals.V1, -1.0)
+    if lower.shape[-1] == 1:
+        return lower[..., 0].T, upper[..., 0].T
+    width = np.where(np.isnan(lower), -1.0, upper - lower)
     index = np.argmax(width, axis=-1, keepdims=True)  # the first of equal ones
-    V1, V2 = (np.take_along_axis(end, index, axis=-1)[..., 0].T for end in (intervals.V1, intervals.V2))
+    V1, V2 = (np.take_along_axis(end, index, axis=-1)[..., 0].T for end in (lower, upper))
     return V1, V2
 
 
-def _steps(intervals: Intervals, V: Floats) -> NDArray[np.int64]:
+def _steps(lower: Floats, upper: Floats, V: Floats) -> NDArray[np.int64]:
     """By how much the number of stable machines rises from each speed to the next (cell, V + 1)."""
-    cells, width = intervals.V1.shape[1], len(V) + 1
+    cells, width = lower.shape[1], len(V) + 1
     row = width * np.arange(cells)[:, np.newaxis]
-    first = row + np.searchsorted(
-        V, intervals.V1, side="right"
-    )  # NaN, behind an end, is the last step: no rise
-    last = row + np.searchsorted(V, intervals.V2, side="left")
+    first = row + np.searchsorted(V, lower, side="right")  # NaN, behind an end, is the last step: no rise
+    last = row + np.searchsorted(V, upper, side="left")
     rises, falls = (np.bincount(at.ravel(), minlength=cells * width) for at in (first, last))
     return (rises - falls).reshape(cells, width)
 

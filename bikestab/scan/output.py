@@ -168,7 +168,7 @@ def _differences(volume: Volume, plan: Plan) -> Iterator[str]:
     pairs |= {name: (there.get(name), value) for name, value in here.items()}
     pairs["fields"] = (" ".join(volume.fields), " ".join(plan.fields))
     axes = {axis.name: axis.values for axis in config.axes}
-    there = "growth_rate" in volume.fields and "kernel" in volume.file["growth_rate"].attrs
+    there = any("kernel" in volume.file[name].attrs for name in volume.fields)
     pairs["fast"] = (str(there).lower(), str(config.compiled).lower())
     pairs["sweep"] = (" × ".join(volume.swept) or None, " × ".join(axes) or None)
     for name, (old, new) in pairs.items():

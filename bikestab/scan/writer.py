@@ -89,7 +89,7 @@ class VolumeWriter:
 
     def _field(self, field: Field) -> None:
         data = self._create(field.name, self._grid, field.dtype, self.plan.chunk, field.unit, field.meaning)
-        if field.name == "growth_rate" and self.plan.config.compiled:
+        if field.name in ("growth_rate", "probability") and self.plan.config.compiled:
             data.attrs["kernel"] = np.bytes_("compiled")
         if field.flags:
             flags(data, field.flags)
