@@ -70,7 +70,7 @@ def test_json(scan):
     assert (code, err) == (0, "")
     first, second = json.loads(out)["results"]
     assert list(first) == [
-        "config", "bicycle", "volume", "pictures", "computed", "points", "stable_points",
+        "config", "bicycle", "volume", "pictures", "report", "computed", "points", "stable_points",
         "largest_boundary_difference", "bracketed_zeros", "largest_bracketed_difference", "warnings",
     ]  # fmt: skip
     assert (first["config"], first["volume"], first["points"]) == ("a.yaml", "out/a/volume.h5", 462)
