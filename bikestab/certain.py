@@ -82,17 +82,17 @@ def square_roots(zeros: Zeros) -> Zeros:
     return Zeros(V_, rest, radius, zeros.sure)
 
 
-def zeros_of(polynomial: Polynomial, number: int) -> Zeros:
+def zeros_of(polynomial: Polynomial, number: int, error: float = COEFFICIENT) -> Zeros:
     """Of any polynomials in ``number`` cells: isolated by the signs of their Bernstein coefficients.
 
     Between two doubles that are neighbours at most one zero is found; then, and where a sign is not certain,
-    the cell is not ``sure``.
+    the cell is not ``sure``. A coefficient's ``error`` is relative to its size.
     """
-    (cell, low, high, sign), sure = brackets(polynomial, number, COEFFICIENT)
+    (cell, low, high, sign), sure = brackets(polynomial, number, error)
     c = [None if a is None else a.at(cell) for a in polynomial]
     plain = np.array([np.zeros(len(cell)) if a is None else a.value for a in c])
     start = bracketed_root(plain, low, high, sign)
-    x, radius, simple = _polished(c, plain, start)
+    x, radius, simple = _polished(c, plain, start, error)
     sure = sure.copy()
     sure[cell[~simple]] = False
     V, rest, radius = collected(cell, np.array([x.value, x.rest, radius]), number)
@@ -134,7 +134,9 @@ def ascending(V: Floats, *others: NDArray[Any]) -> None:
                     values[i, cells], values[i + 1, cells] = values[i + 1, cells], values[i, cells]
 
 
-def _polished(c: Polynomial, plain: Floats, start: Floats) -> tuple[Twofold, Floats, NDArray[np.bool_]]:
+def _polished(
+    c: Polynomial, plain: Floats, start: Floats, error: float
+) -> tuple[Twofold, Floats, NDArray[np.bool_]]:
     """Zeros near ``start`` (root,), bounds on their errors, and whether each is a simple one."""
     x = Twofold(start, np.zeros_like(start))
     radius, simple = np.full(len(start), np.inf), np.zeros(len(start), bool)
@@ -143,14 +145,16 @@ def _polished(c: Polynomial, plain: Floats, start: Floats) -> tuple[Twofold, Flo
         if not len(todo):
             break
         here = x.at(todo)
-        f, slope, slope_error, bend = _values([None if a is None else a.at(todo) for a in c], here, step > 1)
+        f, slope, slope_error, bend = _values(
+            [None if a is None else a.at(todo) for a in c], here, step > 1, error
+        )
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             move = -f / Twofold(slope)
-        far, certain = _distance(here, f, slope, slope_error, bend)
+        far, certain = _distance(here, f, slope, slope_error, bend, error)
         radius[todo], simple[todo] = np.where(certain, far, np.inf), certain
         good = certain & (far <= 2.0**-70 * here.value) & (step > 0)
         # a zero that is as good as its terms allow moves no more
-        good |= certain & (np.abs(f.value) <= 8 * COEFFICIENT * f.size)
+        good |= certain & (np.abs(f.value) <= 8 * error * f.size)
         moved = here + move
         usable = ~good & np.isfinite(moved.value) & (moved.value > 0)
         todo = todo[usable]
@@ -174,15 +178,17 @@ def _nearer(c: Polynomial, x: Twofold, share: Floats) -> Floats:
 
 
 def _distance(
-    x: Twofold, f: Twofold, slope: Floats, slope_error: Floats, bend: Floats
+    x: Twofold, f: Twofold, slope: Floats, slope_error: Floats, bend: Floats, error: float = COEFFICIENT
 ) -> tuple[Floats, NDArray[np.bool_]]:
     """How far a zero is at most, and where that is certain: there the slope changes by little."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        far = 1.25 * (np.abs(f.value) + COEFFICIENT * f.size) / np.abs(slope)
+        far = 1.25 * (np.abs(f.value) + error * f.size) / np.abs(slope)
         return far, (np.abs(slope) > 16 * (slope_error + far * bend)) & (far <= np.abs(x.value) / 16)
 
 
-def _values(c: Polynomial, x: Twofold, fine: bool) -> tuple[Twofold, Floats, Floats, Floats]:
+def _values(
+    c: Polynomial, x: Twofold, fine: bool, error: float = COEFFICIENT
+) -> tuple[Twofold, Floats, Floats, Floats]:
     """Value and slope at x, a bound on the slope's error, and one on the second derivative near x."""
     zero = Twofold(np.zeros_like(x.value))
     f = slope = zero
@@ -195,7 +201,7 @@ def _values(c: Polynomial, x: Twofold, fine: bool) -> tuple[Twofold, Floats, Flo
         size = size * x.value + f.size
         f = f * x if a is None else f * x + a
     if fine:
-        return f, slope.value, 2 * COEFFICIENT * slope.size, 2 * bend
+        return f, slope.value, 2 * error * slope.size, 2 * bend
     return f, plain, SLOPE * size, 2 * bend
 
 

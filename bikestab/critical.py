@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from bikestab import certain
 from bikestab.certain import Zeros, square_roots, zero_of_linear, zeros_of
 from bikestab.corrected import (
-    Coefficients,
     Condition,
     hurwitz3_at,
     hurwitz3_near,
@@ -23,6 +22,7 @@ from bikestab.corrected import (
 )
 from bikestab.entries import DAMPED, EVEN, Cells, Entries, cells_of, scaled
 from bikestab.model import ExactTable, Floats
+from bikestab.rounding import CANCELLED
 from bikestab.routh import CONDITIONS, hurwitz3_of
 from bikestab.twofold import Double, Twofold
 
@@ -101,7 +101,8 @@ def _even(entries: Entries, name: str) -> Found:
     numbers = entries.numbers
     if name == "hurwitz3":
         w = _hurwitz3_even(entries.doubles())
-        return _again(zeros_of_quadratic(entries, _EVEN_HURWITZ3, w), w, entries, _fine_even)
+        found = _found(zeros_of_quadratic(entries, _EVEN_HURWITZ3, w), w)
+        return _again(found, entries, _fine_even, _left_even)
     if name in ("p3", "p4"):
         return _found(_none(len(entries)), [numbers[(3, 1) if name == "p3" else (4, 0)]])
     a, b = {"p0": ((0, 0), (0, 2)), "p1": ((1, 1), (1, 3)), "p2": ((2, 0), (2, 2))}[name]
@@ -116,9 +117,11 @@ def _hurwitz3_even(n: dict[tuple[int, int], T]) -> list[T]:
     return [e0 * slow - f0 * square, e0 * fast + e * slow - f * square, e * fast]
 
 
-def _spread(w: Sequence[Double]) -> Coefficients:
+def _spread(w: Sequence[T]) -> list[T | None]:
     """A polynomial in V² as one in V."""
-    return [w[0], *(each for a in w[1:] for each in (None, a))]
+    out: list[T | None] = [None] * (2 * len(w) - 1)
+    out[::2] = w
+    return out
 
 
 _EVEN_HURWITZ3 = Condition(lambda n: _spread(_hurwitz3_even(n)), hurwitz3_near, hurwitz3_at)
@@ -131,6 +134,11 @@ def _fine_even(entries: Entries) -> Found:
     return _found(square_roots(certain.zeros_of_quadratic(*w)), w)
 
 
+def _left_even(entries: Entries) -> Found:
+    w = _spread(_hurwitz3_even(entries.cancelled()))
+    return _found(zeros_of(w, len(entries), CANCELLED), w)
+
+
 def _damped(entries: Entries, name: str) -> Found:
     """With damping p3 and p1 have both even and odd powers of V, and hurwitz3 is of degree 6."""
     if name in ("p0", "p2", "p4"):
@@ -138,9 +146,12 @@ def _damped(entries: Entries, name: str) -> Found:
     n = entries.numbers
     if name == "p3":
         return _found(zero_of_linear(n[3, 0], n[3, 1]), [n[3, 0], n[3, 1]])
-    condition, fine = (_P1, _fine_p1) if name == "p1" else (_HURWITZ3, _fine_hurwitz3)
+    condition = _P1 if name == "p1" else _HURWITZ3
     c = condition.polynomial(entries.doubles())
-    return _again(zeros_between(entries, condition, c), c, entries, fine)
+    found = _found(zeros_between(entries, condition, c), c)
+    if name == "p1":
+        return _again(found, entries, _fine_p1)
+    return _again(found, entries, _fine_hurwitz3, _left_hurwitz3)
 
 
 def _fine_p1(entries: Entries) -> Found:
@@ -153,19 +164,27 @@ def _fine_hurwitz3(entries: Entries) -> Found:
     return _found(zeros_of(polynomial, len(entries)), polynomial)
 
 
-def _again(zeros: Zeros, c: Coefficients, entries: Entries, fine: Callable[[Entries], Found]) -> Found:
-    """With the cells that are not sure done in twice double precision throughout."""
-    poor = np.flatnonzero(~zeros.sure)
-    sign = _found(zeros, c)[1]
-    if not len(poor):
-        return zeros, sign
-    second, sign[poor] = fine(entries.at(poor))
-    most = max(len(zeros.V), len(second.V))
-    rows = [_rows_of(values, most) for values in zeros[:3]]
-    for into, values in zip(rows, second[:3], strict=True):
-        into[:, poor] = _rows_of(values, most)
-    zeros.sure[poor] = second.sure
-    return Zeros(rows[0], rows[1], rows[2], zeros.sure), sign
+def _left_hurwitz3(entries: Entries) -> Found:
+    """By what is left of entries of which nearly all cancels."""
+    polynomial = hurwitz3_of(_rows(entries.cancelled()))
+    return _found(zeros_of(polynomial, len(entries), CANCELLED), polynomial)
+
+
+def _again(found: Found, entries: Entries, *ways: Callable[[Entries], Found]) -> Found:
+    """With the cells that are not sure done again, in one way after the other."""
+    zeros, sign = found
+    for way in ways:
+        poor = np.flatnonzero(~zeros.sure)
+        if not len(poor):
+            break
+        again, sign[poor] = way(entries.at(poor))
+        most = max(len(zeros.V), len(again.V))
+        V, rest, radius = (_rows_of(values, most) for values in zeros[:3])
+        for into, values in zip((V, rest, radius), again[:3], strict=True):
+            into[:, poor] = _rows_of(values, most)
+        zeros.sure[poor] = again.sure
+        zeros = Zeros(V, rest, radius, zeros.sure)
+    return zeros, sign
 
 
 def _any(entries: Entries, name: str) -> Found:

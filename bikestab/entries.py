@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bikestab.halved import Halved, halved_double
 from bikestab.model import ExactTable, Floats
-from bikestab.rounding import CLOSE, ENTRY
+from bikestab.rounding import CLOSE, ENTRY, LEFT
 from bikestab.twofold import Double, Pair, Twofold
 
 EVEN = (
@@ -51,6 +51,12 @@ class Entries:
     def sized(self) -> dict[tuple[int, int], Double]:
         """Them in double precision, with the sizes of all their terms."""
         return {key: Double(a.value, a.size) for key, a in self.numbers.items()}
+
+    def cancelled(self) -> dict[tuple[int, int], Twofold]:
+        """Them with sizes of what is left of each: products of three are right to CANCELLED of theirs."""
+        return {
+            key: Twofold(a.value, a.rest, np.abs(a.value) + LEFT * a.size) for key, a in self.numbers.items()
+        }
 
     def pair(self, k: int, j: int, cell: Any = slice(None)) -> Pair:
         """One of them in twice double precision, in some cells."""

@@ -10,6 +10,11 @@ EPS = 2.0**-52
 ENTRY = 2.0**-95
 # A coefficient of a condition as a polynomial in V: a product of three entries, and some operations.
 COEFFICIENT = 2.0**-92
+# Where entries cancel, a product of three is known better than by the sizes of all terms. With LEFT of an
+# entry's size, which is 2^71 of its error, and its value as its size: to three times 2^−71 of these sizes'
+# product, and what operations do, which does not count beside it.
+LEFT = 2.0**-24
+CANCELLED = 2.0**-68
 
 # A value of a condition in numbers of 79 bits: 76 · 2^−79 from operations, and three times CLOSE from
 # entries, whose sizes are then themselves and 2^76 of their errors.

@@ -118,7 +118,8 @@ def test_near_a_fold(delta, ends):
             seen = checked(cells(bicycle, lam, [0.08]))
             assert seen.largest <= AGREEMENT
             assert seen.largest_loose < 1e-5
-    at_the_fold = checked(cells(bicycle, low, [0.08]))
+    # in a single double the signs beside two roots may differ by chance as they should
+    at_the_fold = checked(cells(bicycle, low - np.arange(20) * np.spacing(low), [0.08]))
     assert at_the_fold.loose + at_the_fold.touching > 0
     assert checked(cells(bicycle, low - 1e-5, [0.08])).loose == 0
 
