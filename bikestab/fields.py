@@ -54,6 +54,7 @@ class Field:
     ``values`` gives it at points, shape (cell, V). ``asked`` is the word in a config that asks for it, and
     empty where it comes of itself. ``flags`` are the meanings of its values 0, 1 …, ``masks`` those of its
     bits. ``cost`` is in ns per point on one core; chunks in the file are at least ``packing`` times smaller.
+    ``at_once``: its values come of the mask alone, so that there is no need to take few points at a time.
     """
 
     name: str
@@ -66,10 +67,11 @@ class Field:
     packing: float
     flags: tuple[str, ...] = ()
     masks: tuple[str, ...] = ()
+    at_once: bool = False
 
 
 def _stable(points: Points) -> NDArray:
-    return points.violated == 0
+    return (points.violated == 0).view(np.uint8)
 
 
 def _violated(points: Points) -> NDArray:
@@ -94,11 +96,11 @@ def _of_condition(name: str) -> Callable[[Points], NDArray]:
 _RECORDS = (
     Field(
         name="stable", dtype=np.uint8, unit="1", meaning="rectilinear motion is asymptotically stable",
-        values=_stable, asked="stable", cost=1, packing=20, flags=("unstable", "stable"),
+        values=_stable, asked="stable", cost=1, packing=20, flags=("unstable", "stable"), at_once=True,
     ),
     Field(
         name="violated", dtype=np.uint8, unit="1", meaning="conditions of stability that do not hold",
-        values=_violated, asked="violated", cost=1, packing=20,
+        values=_violated, asked="violated", cost=1, packing=20, at_once=True,
         masks=tuple(f"{name}_not_positive" for name in CONDITIONS),
     ),
     Field(

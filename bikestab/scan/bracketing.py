@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.errors import ScanError
+from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, condition, conditions
@@ -51,6 +52,7 @@ class Bracketing:
         self._V = V
         self._share = min(COLUMNS, POINTS / len(V)) / columns
         self._brackets: dict[str, list[Brackets]] = {name: [] for name in CONDITIONS}
+        self._waiting: list[tuple[Family, Floats, Floats, dict[str, Floats]]] = []
 
     def add(
         self, place: tuple[int, int], tile: Tile, roots: Mapping[str, Roots | Sheets],
@@ -61,19 +63,39 @@ class Bracketing:
         Left out are the (λ, σ) where there may be others.
         """
         chosen = self._chosen(place, tile.shape[-3:-1]) & ~undecided
-        tables = _tables(tile, chosen)
-        at_all = np.nonzero(chosen)
+        exact = {name: found.V[chosen] for name, found in roots.items()}
+        if tile.swept:
+            self._look_at(_tables(tile, chosen), exact)
+            return
+        *_, i, j = np.nonzero(chosen)
+        if self._waiting and self._waiting[0][0] != tile.family:
+            self._look_at_waiting()
+        self._waiting.append((tile.family, tile.x[i], tile.y[j], exact))
+
+    def _look_at_waiting(self) -> None:
+        """Look at the columns of all tiles of one machine: their tables are formed faster together."""
+        if not self._waiting:
+            return
+        families, x, y, exact = zip(*self._waiting, strict=True)
+        self._waiting = []
+        most = {name: max(each[name].shape[-1] for each in exact) for name in CONDITIONS}
+        whole = {
+            name: np.concatenate([widened(each[name], most[name], np.nan) for each in exact])
+            for name in CONDITIONS
+        }
+        self._look_at(families[0].table(np.concatenate(x), np.concatenate(y)), whole)
+
+    def _look_at(self, tables: Floats, exact: dict[str, Floats]) -> None:
         step = max(1, _PART // len(self._V))
-        for start in range(0, len(at_all[0]), step):
-            at = tuple(i[start : start + step] for i in at_all)
-            table = tables[..., start : start + step]
+        for start in range(0, tables.shape[-1], step):
+            some = slice(start, start + step)
             for first in range(0, len(self._V) - 1, _PART):
-                self._look(
-                    table, self._V[first : first + _PART + 1], {name: r.V[at] for name, r in roots.items()}
-                )
+                V = self._V[first : first + _PART + 1]
+                self._look(tables[..., some], V, {name: each[some] for name, each in exact.items()})
 
     def agreement(self) -> Agreement:
         """How far scipy's zeros are from the exact speeds. Raises ScanError where that is too far."""
+        self._look_at_waiting()
         total = Agreement()
         for name, parts in self._brackets.items():
             if parts:
@@ -101,10 +123,7 @@ class Bracketing:
 
 
 def _tables(tile: Tile, chosen: NDArray[np.bool_]) -> Floats:
-    """The tables (5, 4, cell) of chosen (…, x, y) of a tile."""
-    if not tile.swept:
-        *_, i, j = np.nonzero(chosen)
-        return tile.family.table(tile.x[i], tile.y[j])
+    """The tables (5, 4, cell) of chosen (…, x, y) of a tile of many machines."""
     i, j = np.nonzero(chosen.any(axis=tuple(range(len(tile.block)))))
     table = tile.family.table(tile.x[i], tile.y[j], tile.swept)
     return table[:, :, chosen[..., i, j].reshape(table.shape[2], -1)]

@@ -38,7 +38,7 @@ def file_attributes(config: ScanConfig) -> dict[str, Any]:
         "references": text["references"],
         "bikestab_version": __version__,
         "bicycle": text["bicycle"],
-        "bicycle_parameters": parameters_text(config.family()),
+        "bicycle_parameters": parameters_text(config.family(None)),
         "warnings": text["warnings"],
         "model": config.model,
         "config": text["config"],

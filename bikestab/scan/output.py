@@ -164,7 +164,7 @@ def _differences(volume: Volume, plan: Plan) -> Iterator[str]:
     config = plan.config
     pairs: dict[str, tuple[Any, Any]] = {"model": (volume.model, config.model)}
     pairs["axes"] = (" × ".join(volume.axes), " × ".join(config.grid.names))
-    there, here = json.loads(volume.text("bicycle_parameters")), config.family().kept
+    there, here = json.loads(volume.text("bicycle_parameters")), config.family(None).kept
     pairs |= {name: (there.get(name), value) for name, value in here.items()}
     pairs["fields"] = (" ".join(volume.fields), " ".join(plan.fields))
     axes = {axis.name: axis.values for axis in config.axes}

@@ -28,7 +28,7 @@ except ImportError:  # pragma: no cover  # Windows has no such lock: nobody then
     fcntl = None  # type: ignore[assignment]
 
 _KIND = b"bikestab tiles "
-_MAGIC = _KIND + b"3 "  # other builds have other numbers: what they keep of a tile is not the same
+_MAGIC = _KIND + b"4 "  # other builds have other numbers: what they keep of a tile is not the same
 _HEAD = struct.Struct("<QIQ")  # number of the tile, lengths of its notes and data
 _SUM = struct.Struct("<I")  # checksum of all three
 _NO_LOCKS = {errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK}  # some network disks

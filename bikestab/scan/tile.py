@@ -5,9 +5,10 @@ A tile needs nothing but itself, so it can be computed by any process or machine
 
 from __future__ import annotations
 
-import io
-from collections.abc import Mapping
+import json
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -96,26 +97,37 @@ class Columns(NamedTuple):
         """The columns as they are kept until the volume is written."""
         V1, V2, lower, upper, V1_error, V2_error, marginal = self.intervals.arrays().values()
         V, other = zip(*(self.sheets or self.roots).values(), strict=True)
-        out = io.BytesIO()
+        out = bytearray()
         for array in (
             np.stack([V1, V2, V1_error, V2_error]), np.stack([lower, upper, marginal]),
             np.cumsum([each.shape[-1] for each in V]),
             np.concatenate(V, axis=-1), np.concatenate(other, axis=-1), self.undecided, self.spread,
         ):  # fmt: skip
-            np.save(out, array, allow_pickle=False)
-        return out.getvalue()
+            head = json.dumps([array.dtype.str, array.shape]).encode()
+            out += len(head).to_bytes(4, "little") + head + array.tobytes()
+        return bytes(out)
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Columns:
         """The columns that ``to_bytes`` turned into bytes."""
-        file = io.BytesIO(data)
-        ends, kinds, stops, V, other, *others = (np.load(file, allow_pickle=False) for _ in range(7))
+        ends, kinds, stops, V, other, *others = _arrays(data)
         kind, cuts = (Sheets, stops[:-1]) if other.dtype == np.uint8 else (Roots, len(CONDITIONS))
         each = zip(CONDITIONS, np.split(V, stops[:-1], axis=-1), np.split(other, cuts, axis=-1), strict=True)
         found: dict[str, Any] = {name: kind(*arrays) for name, *arrays in each}
         roots, sheets = ({}, found) if kind is Sheets else (found, {})
         (V1, V2, V1_error, V2_error), (lower, upper, marginal) = ends, kinds
         return cls(Intervals(V1, V2, lower, upper, V1_error, V2_error, marginal), roots, sheets, *others)
+
+
+def _arrays(data: bytes) -> Iterator[NDArray]:
+    """Arrays, each behind the length of its description, and that: dtype and shape."""
+    at = 0
+    while at < len(data):
+        begin = at + 4 + int.from_bytes(data[at : at + 4], "little")
+        dtype, shape = json.loads(data[at + 4 : begin])
+        array = np.frombuffer(data, dtype, prod(shape), begin).reshape(shape)
+        at = begin + array.nbytes
+        yield array
 
 
 class Finished(NamedTuple):
@@ -175,6 +187,8 @@ def field_values(
     if tile.fast and name == "growth_rate":
         return growth_rates(table, tile.V).reshape(tile.shape)
     field = FIELDS[name]
+    if field.at_once:
+        return field.values(Points(table[..., np.newaxis], tile.V, mask)).reshape(tile.shape)
     out = np.empty(mask.shape, field.dtype)
     speeds = -(-len(tile.V) // -(-len(tile.V) // _SPEEDS))  # equal parts, for a short one costs more
     cells = max(1, _POINTS // speeds)

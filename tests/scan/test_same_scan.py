@@ -185,7 +185,7 @@ def test_tiles_of_an_earlier_build_are_told_of_and_kept(content):
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"bike", b"bikestab tiles ", b"bikestab tiles 3", b'bikestab tiles 3 {"a']
+    "content", [b"", b"bike", b"bikestab tiles ", b"bikestab tiles 4", b'bikestab tiles 4 {"a']
 )
 def test_a_first_line_that_a_kill_cut_off_is_no_hindrance(content):
     Path("out").mkdir()
