@@ -38,6 +38,9 @@ parameters = st.dictionaries(
     st.sampled_from([*PAPER, *MEIJAARD, "name", "source", "x"]), numbers, max_size=30
 )
 varied = st.sampled_from([*PAPER, *MEIJAARD, "samples", "seed", "quantiles", "x"])
+other_axes = st.dictionaries(
+    st.sampled_from([*AXES, *PAPER, "mB", "zB", "head_angle", "trail", "x"]), axes, max_size=4
+)
 planes = st.dictionaries(st.sampled_from([*AXES, "x"]), numbers, max_size=2)
 expected = st.sampled_from(["lam", "sigma", "V1", "V2", "within", "stable"])
 KEYS: dict[str, st.SearchStrategy[Any]] = {
@@ -45,8 +48,9 @@ KEYS: dict[str, st.SearchStrategy[Any]] = {
     "bicycle": st.sampled_from(preset_names()) | parameters | nasty,
     "model": st.sampled_from(["refined", "unrefined"]) | nasty,
     "delta": numbers,
-    "grid": st.fixed_dictionaries(dict.fromkeys(AXES, axes)) | nasty,
+    "grid": st.fixed_dictionaries(dict.fromkeys(AXES, axes)) | other_axes | nasty,
     "fields": st.lists(st.sampled_from(askable()) | nasty, max_size=4) | nasty,
+    "fast": st.booleans() | nasty,
     "sweep": st.dictionaries(varied, axes | st.lists(numbers, max_size=3), max_size=3) | nasty,
     "ensemble": st.dictionaries(
         varied, st.fixed_dictionaries({"normal": st.lists(numbers, max_size=3)}) | numbers, max_size=4

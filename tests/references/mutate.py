@@ -1,12 +1,15 @@
 """``python tests/references/mutate.py [NUMBER [SEED]]``: which mistakes put into the core tests notice.
 
 A mutant is one operator, comparison, sign or number of a module changed, in a copy of the repository. It is
-noticed where the tests named beside the module fail or take longer than SECONDS; others are told by line.
+noticed where the tests named beside the module fail or take more than SECONDS of processor time; others are
+told by line.
 """
 
 import ast
+import functools
 import os
 import random
+import resource
 import shutil
 import subprocess
 import sys
@@ -60,12 +63,10 @@ def noticed(folder, name):
     """Whether the tests of a module fail in a copy of the repository."""
     tests = [f"tests/{test}" for test in TESTS[name]]
     environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder}/cli"}
-    options = {"cwd": folder, "env": environment, "capture_output": True, "timeout": SECONDS}
+    limits = functools.partial(resource.setrlimit, resource.RLIMIT_CPU, (SECONDS, SECONDS))
+    options = {"cwd": folder, "env": environment, "capture_output": True, "preexec_fn": limits}
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests]
-    try:
-        return bool(subprocess.run(command, **options).returncode)
-    except subprocess.TimeoutExpired:
-        return True
+    return bool(subprocess.run(command, **options).returncode)
 
 
 def main(number=100, seed=0):
