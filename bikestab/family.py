@@ -64,9 +64,15 @@ class Family:
         """The same as doubles, of shape (5, 4, *shape)."""
         return self.exact_table(x, y, others).value
 
-    def quick_table(self, x: ArrayLike, y: ArrayLike, others: Mapping[str, Any] | None = None) -> Floats:
-        """The same in double precision, for searches: right to the rounding of the terms of its entries."""
-        machine, lam, sigma = varied(self.bicycle, {**(others or {}), self.x: x, self.y: y})
+    def quick_table(
+        self, x: ArrayLike, y: ArrayLike, others: Mapping[str, Any] | None = None,
+        away: Mapping[str, Any] | None = None,
+    ) -> Floats:  # fmt: skip
+        """The same in double precision, for searches: right to the rounding of the terms of its entries.
+
+        ``away`` moves tilt, trail and offset: see ``varied``.
+        """
+        machine, lam, sigma = varied(self.bicycle, {**(others or {}), self.x: x, self.y: y}, away)
         return characteristic_table(machine, lam, sigma, model=self.model)
 
     def geometry(self, x: ArrayLike, y: ArrayLike) -> tuple[Any, Any, Bicycle | Machines]:

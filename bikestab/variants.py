@@ -34,12 +34,15 @@ def parameter_of(bicycle: Bicycle, name: str) -> Parameter:
     return Parameter(name, _SYMBOLS.get(name, name), *_meanings(bicycle)[name][:-1].rsplit(" [", 1))
 
 
-def varied(bicycle: Bicycle, values: Mapping[str, Any]) -> tuple[Bicycle | Machines, Any, Any]:
+def varied(
+    bicycle: Bicycle, values: Mapping[str, Any], away: Mapping[str, Any] | None = None
+) -> tuple[Bicycle | Machines, Any, Any]:
     """The machine or machines, λ [rad] and σ where some parameters have other ``values``, SI, unchecked.
 
     Values are arrays that broadcast together, of the bicycle's notation, the two parts' symbols, or FRONT.
     What is not given stays as the bicycle has it: its σ in the paper's notation, its trail ``c`` in that of
-    Meijaard et al. An offset keeps the tilt, unless the trail is given with it.
+    Meijaard et al. An offset keeps the tilt, unless the trail is given with it. Tilt, trail and offset, by
+    any of their names, may then be moved by what is in ``away``: each with the others as they are.
     """
     numbers = {name: np.asarray(value, dtype=float) for name, value in values.items()}
     others = {name: value for name, value in numbers.items() if not front_of(bicycle, name)}
@@ -56,7 +59,19 @@ def varied(bicycle: Bicycle, values: Mapping[str, Any]) -> tuple[Bicycle | Machi
             sigma = trail_from(lam, numbers["offset"], machine.R2) / machine.c
         else:
             lam = tilt_from(sigma * machine.c, numbers["offset"], machine.R2)
+    for name, step in (away or {}).items():
+        lam, sigma = _moved(bicycle, name, step, machine, lam, sigma)
     return machine, lam, sigma
+
+
+def _moved(
+    bicycle: Bicycle, name: str, step: Any, machine: Bicycle | Machines, lam: Any, sigma: Any
+) -> tuple[Any, Any]:
+    if front_of(bicycle, name) == "tilt":
+        return lam + (step if name == "lam" else -step), sigma
+    if name == "offset":
+        return lam, sigma - step / (machine.c * np.cos(lam))
+    return lam, sigma + (step if name == "sigma" else step / machine.c)
 
 
 def front_of(bicycle: Bicycle, name: str) -> str:

@@ -162,14 +162,12 @@ class _Composer:
         entries: dict[str, Node] = {}
         merged: list[Node] = []
         while not _is(event := next(self._events), "MappingEnd"):
-            if not _is(event, "Scalar"):
-                self._refuse(event, "a key is text, and no list, mapping or alias")
-            key = str(event.value)
+            key = self._key(event)
             if key in entries:
                 self._refuse(event, f"not valid YAML: found duplicate key {shown(key)}")
             value = self._node(next(self._events), depth + 1)
             value.line = event.start_mark.line + 1
-            if key == "<<" and event.implicit[0]:
+            if key == "<<" and _is(event, "Scalar") and event.implicit[0]:
                 merged += self._merged(event, value)
             else:
                 entries[key] = value
@@ -178,6 +176,20 @@ class _Composer:
             entries = {**other.children, **entries}  # type: ignore[dict-item]  # mappings have dicts
         node.children, node.data = entries, {key: entry.data for key, entry in entries.items()}
         return _closed(node, event, ends)
+
+    def _key(self, event: Any) -> str:
+        """Text, or a pair of names in brackets as text."""
+        if _is(event, "Scalar"):
+            return str(event.value)
+        names: list[str] = []
+        if _is(event, "SequenceStart") and not event.anchor and event.tag is None:
+            while _is(inner := next(self._events), "Scalar") and len(names) < 2:
+                names.append(str(inner.value))
+            if len(names) < 2 or not _is(inner, "SequenceEnd"):
+                names = []
+        if not names:
+            self._refuse(event, "a key is text, and no list, mapping or alias")
+        return f"[{names[0]}, {names[1]}]"
 
     def _merged(self, event: Any, value: Node) -> list[Node]:
         """The mappings behind ``<<``, the one that counts most first."""

@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
+from bikestab.config.correlation import with_known
 from bikestab.config.parts import GRIDS
 from bikestab.config.scanconfig import CheckConfig, Expectation, Plane, ScanConfig
 from bikestab.config.values import Strict
@@ -66,6 +67,10 @@ def _parsed(document: yamltext.Document, places: dict[tuple[str | int, ...], str
         if "bicycle" in data:
             typed = ("bicycle",) in places  # in a command, where paths start from the current folder
             data["bicycle"] = _load_bicycle(data["bicycle"], "" if typed else Path(document.file).parent)
+        typed = ("ensemble",) in {key[:1] for key in places}
+        folder = "" if typed else Path(document.file).parent
+        if "ensemble" in data:
+            data["ensemble"] = with_known(data["ensemble"], data.get("bicycle"), folder)
         try:
             return form.model_validate(data)
         except ValidationError as error:
@@ -153,7 +158,7 @@ def _known(key: tuple[str | int, ...], family: bool) -> list[str]:
     if key[0] == "sweep":
         return ["parameters of the bicycle"] if len(key) == 1 else ["start", "stop", "num", "values"]
     if key == ("ensemble",):
-        return ["parameters of the bicycle", *Ensemble.model_fields]
+        return ["parameters of the bicycle", *Ensemble.model_fields, "covariance"]
     if key[0] == "ensemble":
         return list(Distribution.model_fields)
     model = Plane if key[0] == "slices" else Expectation

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Mapping
 from itertools import product
 from typing import NamedTuple
 
+import numpy as np
+
 from bikestab.bicycle import Bicycle
 from bikestab.config.parts import FamilyGrid, Grid
 from bikestab.config.values import NumberAxis
@@ -15,10 +17,12 @@ from bikestab.config.variation import BOTH, Ensemble
 from bikestab.errors import InputError, nearest
 from bikestab.family import Family
 from bikestab.fields import AXES, Axes
+from bikestab.limits import MOST_TRAIL
 from bikestab.model import Floats
-from bikestab.variants import fixed_by, front_of
+from bikestab.variants import FRONT, fixed_by, front_of, varied
 
 MOST_MEMBERS = 10_000  # of a sweep
+_STEEPEST = 1.57  # rad
 MOST_MACHINES = 100_000_000  # of all ensembles of a sweep
 
 
@@ -57,10 +61,16 @@ def check_names(
     names = [("sweep", name) for name in sweep]
     names += [("ensemble", name) for name in (ensemble.parameters if ensemble else ())]
     on_grid = fixed_by(bicycle, axes)
-    known = [name for name in bicycle.notation if front_of(bicycle, name) not in on_grid]
+    swept = [name for name in bicycle.notation if front_of(bicycle, name) not in on_grid]
     seen: dict[str, str] = {one: "grid" for name in axes for one in _equal(name)}
     for key in names:
-        name = key[1]
+        name, of_front = key[1], front_of(bicycle, key[1])
+        known = swept if key[0] == "sweep" else [*bicycle.notation, *FRONT]
+        if key[0] == "ensemble" and of_front:
+            if (the := f"the {of_front}") in seen:
+                raise InputError(f"{seen[the]} is {the} as well", key=key, hint="draw one of them")
+            seen[the] = ".".join(key)
+            continue
         if (place := front_of(bicycle, name)) in on_grid:
             the, axis = "trail" if place == "offset" else place, on_grid[place]
             raise InputError(f"the grid has the {the}", key=key, hint=f"give its values in grid.{axis}")
@@ -161,7 +171,26 @@ def doubts_of(machines: list[Member], ensemble: Ensemble | None) -> list[str]:
     return doubts
 
 
-def check_samples(machines: list[Member], ensemble: Ensemble | None) -> None:
+def _check_fronts(bicycle: Bicycle, ensemble: Ensemble, grid: Grid | FamilyGrid) -> None:
+    """Raise InputError where a drawn tilt or trail is none, at the corners of the grid."""
+    x, y, _ = grid.names
+    fronts = [name for name in ensemble.parameters if front_of(bicycle, name)]
+    if not fronts:
+        return
+    drawn, away = ensemble.parted(bicycle, grid.names)
+    corners = np.array(list(product(grid.ends(x), grid.ends(y)))).T
+    columns, moves = ({name: v[:, np.newaxis] for name, v in each.items()} for each in (drawn, away))
+    with np.errstate(all="ignore"):
+        _, lam, sigma = varied(bicycle, {**columns, x: corners[0], y: corners[1]}, moves)
+    most = np.max(np.abs(lam)), np.max(np.abs(sigma))  # NaN where one is
+    if not (most[0] < _STEEPEST and most[1] <= MOST_TRAIL):
+        problem = "some samples have a tilt or a trail that no machine has"
+        raise InputError(
+            problem, key=(fronts[0],), hint="take a narrower distribution, or uniform: [low, high]"
+        )
+
+
+def check_samples(machines: list[Member], ensemble: Ensemble | None, grid: Grid | FamilyGrid) -> None:
     """Raise InputError if some sample around some member is no machine, or all are too many."""
     if ensemble is None:
         return
@@ -174,6 +203,7 @@ def check_samples(machines: list[Member], ensemble: Ensemble | None) -> None:
     for member in machines:
         try:
             ensemble.machines(member.bicycle)
+            _check_fronts(member.bicycle, ensemble, grid)
         except InputError as error:
             at = ", ".join(f"{name} = {value:g}" for name, value in member.values.items())
             problem = f"at {at}, {error.problem}" if at else error.problem

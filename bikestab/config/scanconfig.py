@@ -157,7 +157,7 @@ class ScanConfig(Strict):
                 self.bicycle, self.grid.names, self.sweep, self.ensemble, own_delta=self.delta is not None
             )
             check_designs(self.members, self.grid)
-            check_samples(self.members, self.ensemble)
+            check_samples(self.members, self.ensemble, self.grid)
         except InputError as error:
             raise mistake(error.problem, error.hint, error.key) from None
         return self

@@ -12,8 +12,7 @@ from bikestab.config.meaning import OUT_OF_EQUATIONS
 from bikestab.errors import InputError
 from bikestab.presets import preset_names
 
-NOT_DRAWN = "# not drawn, as the grid has their values: "
-INDEPENDENT = "# drawn as independent, though some of them are correlated in the bicycle's file"
+CORRELATED = "# correlated as in the bicycle's file; correlation: {[mB, xB]: 0.5} would say otherwise"
 _NO_ENSEMBLE = """\
 # ensemble:                     # machines drawn at random: how probable stability is at each point
 #   delta: {uniform: [0, 2]}    # or {normal: [mean, standard deviation]}; any parameters
@@ -62,7 +61,6 @@ def _from_its_folder(bicycle_name: str, file: str | Path) -> str:
 
 def _ensemble(bicycle: Bicycle) -> str:
     deviations = {name: sd for name, sd in bicycle.deviations.items() if name not in OUT_OF_EQUATIONS}
-    on_grid = [name for name in ("lam", "c", "sigma", "trail") if deviations.pop(name, None)]
     if not deviations:
         raise InputError(
             f"the bicycle {bicycle.name!r} has no uncertainties to draw",
@@ -74,7 +72,5 @@ def _ensemble(bicycle: Bicycle) -> str:
     lines += [f"  {name}: {{normal: [{bicycle.given[name]!r}, {sd!r}]}}" for name, sd in deviations.items()]
     lines += ["  samples: 1000", "  seed: 1"]
     if any({*pair} <= deviations.keys() for pair in bicycle.correlations):
-        lines.append(INDEPENDENT)
-    if on_grid:
-        lines.append(f"{NOT_DRAWN}{', '.join(on_grid)}")
+        lines.append(CORRELATED)
     return "\n".join(lines)

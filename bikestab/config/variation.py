@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cached_property
 from typing import Annotated, Any
 
@@ -9,63 +10,22 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, model_validator
 
 from bikestab.bicycle import PAPER, Bicycle
-from bikestab.config.values import ABSENT, Number, Share, Strict, in_si, increasing, mistake
+from bikestab.config.correlation import check_pairs, correlations_read, pair_of
+from bikestab.config.distributions import Distribution as Distribution
+from bikestab.config.values import Share, Strict, in_si, increasing, mistake
+from bikestab.draws import correlated
 from bikestab.errors import nearest
-from bikestab.machines import Machines, standard_normal, uniforms
+from bikestab.machines import Machines, uniforms
 from bikestab.model import Floats
 from bikestab.notation import MEIJAARD
 from bikestab.rider import RIDER
-from bikestab.units import shown
-from bikestab.variants import FRONT
+from bikestab.variants import FRONT, fixed_by, front_of
 
 MOST_SAMPLES = 1_000_000  # of an ensemble
 BOTH = {**PAPER, **MEIJAARD, **RIDER}
 VARIED = {**BOTH, **FRONT}
 SWEPT = [name for name in BOTH if name not in ("lam", "sigma", "trail")]  # known in either notation
-
-
-def _pair(words: str) -> BeforeValidator:
-    def validate(value: object) -> object:
-        if not isinstance(value, (list, tuple)) or len(value) != 2:
-            raise mistake(f"{shown(value)} is no pair of numbers", f"allowed: [{words}]")
-        return value
-
-    return BeforeValidator(validate)
-
-
-class Distribution(Strict):
-    """How a parameter is drawn."""
-
-    model_config = ConfigDict(json_schema_extra={"minProperties": 1, "maxProperties": 1})
-
-    normal: Annotated[
-        tuple[Number, Number],
-        _pair("mean, standard deviation"),
-        Field(description="mean, standard deviation"),
-    ] = ABSENT
-    uniform: Annotated[tuple[Number, Number], _pair("low, high"), Field(description="low, high")] = ABSENT
-
-    @model_validator(mode="after")
-    def _one(self) -> Distribution:
-        if len(self.model_fields_set) != 1:
-            raise mistake(
-                "a parameter has one distribution",
-                "allowed: {normal: [mean, standard deviation]}, or {uniform: [low, high]}",
-            )
-        if self.normal and not self.normal[1] > 0:
-            raise mistake(f"the standard deviation {self.normal[1]:g} is not positive", "allowed: above 0")
-        if self.uniform and not self.uniform[1] > self.uniform[0]:
-            low, high = self.uniform
-            raise mistake(f"high = {high:g} is not above low = {low:g}", "allowed: low < high")
-        return self
-
-    def values(self, uniform: Floats) -> Floats:
-        """Its values for random numbers between 0 and 1."""
-        if self.normal:
-            mean, deviation = self.normal
-            return mean + deviation * standard_normal(uniform)
-        low, high = self.uniform
-        return low + (high - low) * uniform
+DRAWN = list(VARIED)
 
 
 def with_units(given: Any, where: str) -> Any:
@@ -73,7 +33,7 @@ def with_units(given: Any, where: str) -> Any:
     if not isinstance(given, dict):
         return given
     return {
-        name: in_si(value, BOTH[name], (where, name)) if name in BOTH else value
+        name: in_si(value, VARIED[name], (where, name)) if name in VARIED else value
         for name, value in given.items()
     }
 
@@ -84,7 +44,7 @@ class Ensemble(Strict):
     model_config = ConfigDict(
         extra="allow",
         json_schema_extra={
-            "propertyNames": {"enum": ["samples", "seed", "quantiles", *SWEPT]},
+            "propertyNames": {"enum": ["samples", "seed", "quantiles", "correlation", "covariance", *DRAWN]},
             "minProperties": 2,
         },
     )
@@ -100,14 +60,20 @@ class Ensemble(Strict):
         AfterValidator(increasing),
     ] = [0.05, 0.25, 0.5, 0.75, 0.95]
 
+    correlation: Annotated[
+        dict[str, float],
+        Field(description="of pairs of parameters: {[mB, IBxx]: 0.8}"),
+        BeforeValidator(correlations_read),
+    ] = {}
+
     @model_validator(mode="before")
     @classmethod
     def _keys(cls, given: Any) -> Any:
         for key, value in given.items() if isinstance(given, dict) else ():
-            if key not in cls.model_fields and key not in SWEPT and not isinstance(value, dict):
+            if key not in cls.model_fields and key not in DRAWN and not isinstance(value, dict):
                 raise mistake(
                     "unknown key",
-                    nearest(key, [*cls.model_fields, *SWEPT]),
+                    nearest(key, [*cls.model_fields, *DRAWN]),
                     ("ensemble", key),
                 )
         return with_units(given, "ensemble")
@@ -116,6 +82,7 @@ class Ensemble(Strict):
     def _something(self) -> Ensemble:
         if not self.parameters:
             raise mistake("no parameter is drawn", "for example m1: {normal: [80, 8]}")
+        check_pairs(self.pairs, list(self.parameters))
         return self
 
     @property
@@ -134,19 +101,44 @@ class Ensemble(Strict):
                 name: [[kind, np.array(pair)] for kind, pair in one.model_dump(exclude_unset=True).items()]
                 for name, one in self.parameters.items()
             },
+            **({"correlation": self._sorted} if self.correlation else {}),
         }
+
+    @property
+    def _sorted(self) -> list[list[Any]]:
+        return sorted([*sorted(pair), np.array(r)] for pair, r in self.pairs.items())
 
     @cached_property
     def drawn(self) -> dict[str, Floats]:
         """The samples of each parameter; shape (sample,)."""
+        pairs = self.pairs
+        linked = [name for name in self.parameters if any(name in pair for pair in pairs)]
+        normal = correlated(linked, pairs, self.samples, self.seed) if linked else {}
         return {
-            name: distribution.values(uniforms(self.seed, name, self.samples))
-            for name, distribution in self.parameters.items()
+            name: one.of_normal(normal[name])
+            if name in normal
+            else one.values(uniforms(self.seed, name, self.samples))
+            for name, one in self.parameters.items()
         }
 
+    @property
+    def pairs(self) -> dict[tuple[str, str], float]:
+        """The correlations of pairs of parameters."""
+        return {pair_of(key): r for key, r in self.correlation.items()}
+
+    def parted(self, bicycle: Bicycle, axes: Iterable[str]) -> tuple[dict[str, Floats], dict[str, Floats]]:
+        """The samples of what the grid leaves open; and how far those of tilt, trail and offset, which its
+        ``axes`` give, are from their distribution's middle.
+        """
+        on_grid = fixed_by(bicycle, axes)
+        away = {name for name in self.parameters if front_of(bicycle, name) in on_grid}
+        moves = {name: self.drawn[name] - self.parameters[name].middle for name in away}
+        return {name: x for name, x in self.drawn.items() if name not in away}, dict(sorted(moves.items()))
+
     def machines(self, bicycle: Bicycle) -> Machines:
-        """The samples around a bicycle, drawn alike for every bicycle.
+        """The samples around a bicycle, drawn alike for every bicycle, but for their tilts and trails.
 
         Raises InputError where some are no machine.
         """
-        return Machines.drawn(bicycle, self.drawn)
+        numbers = {name: x for name, x in self.drawn.items() if not front_of(bicycle, name)}
+        return Machines.drawn(bicycle, numbers or {"g": np.full(self.samples, bicycle.g)})

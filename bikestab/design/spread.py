@@ -13,8 +13,8 @@ from typing import Any, TypedDict
 import numpy as np
 
 from bikestab.bicycle import Bicycle
-from bikestab.design.draws import correlation_matrix, drawn
 from bikestab.design.sensitivity import Sensitivity
+from bikestab.draws import correlation_matrix, drawn
 from bikestab.errors import InputError, nearest
 from bikestab.limits import MOST_TRAIL
 from bikestab.machines import Machines

@@ -39,40 +39,43 @@ class Statistics(NamedTuple):
 
 def ensemble_statistics(
     family: Family, draws: Mapping[str, Floats], x: Floats, y: Floats, V: Floats, quantiles: Sequence[float],
-    *, fast: bool = False,
+    away: Mapping[str, Floats] | None = None, *, fast: bool = False,
 ) -> Statistics:  # fmt: skip
     """Statistics of machines at the cells x and y of a family, both (cell,), and at ascending speeds V [m/s].
 
     ``draws`` are values (machine,) of the parameters that are drawn, by their names; all others, and the
-    family's two, are those of the cell.
+    family's two, are those of the cell. ``away`` (machine,) is how far from these tilt, trail and offset are.
     ``quantiles`` lie between 0 and 1. Of two intervals of equal width the lower counts as the widest.
     Needs memory for the result and for 16 bytes per machine. ``fast`` takes the compiled kernel's intervals.
     """
-    step = max(_PAIRS // _number(draws), 1)
+    drawn = draws, away or {}
+    step = max(_PAIRS // _number(drawn), 1)
     parts = [
-        _of_cells(family, draws, x[start : start + step], y[start : start + step], V, quantiles, fast)
+        _of_cells(family, drawn, x[start : start + step], y[start : start + step], V, quantiles, fast)
         for start in range(0, len(x), step)
     ]
     return Statistics(*(np.concatenate(values) for values in zip(*parts, strict=True)))
 
 
-def _number(draws: Mapping[str, Floats]) -> int:
-    return len(next(iter(draws.values())))
+Drawn = tuple[Mapping[str, Floats], Mapping[str, Floats]]
+
+
+def _number(drawn: Drawn) -> int:
+    return len(next(values for each in drawn for values in each.values()))
 
 
 def _of_cells(
-    family: Family, draws: Mapping[str, Floats], x: Floats, y: Floats, V: Floats, quantiles: Sequence[float],
-    fast: bool,
-) -> Statistics:  # fmt: skip
-    number, cells = _number(draws), len(x)
+    family: Family, drawn: Drawn, x: Floats, y: Floats, V: Floats, quantiles: Sequence[float], fast: bool
+) -> Statistics:
+    number, cells = _number(drawn), len(x)
     V1, V2 = np.empty((2, cells, number))
     steps = np.zeros((cells, len(V) + 1), np.int64)
     unbounded = np.zeros(cells, np.int64)
     step = max(_PAIRS // cells, 1)
     for start in range(0, number, step):
         part = slice(start, start + step)
-        drawn = {name: values[part, np.newaxis] for name, values in draws.items()}
-        lower, upper = _stable(family.quick_table(x, y, drawn), fast)
+        some = ({name: values[part, np.newaxis] for name, values in each.items()} for each in drawn)
+        lower, upper = _stable(family.quick_table(x, y, *some), fast)
         V1[:, part], V2[:, part] = _widest(lower, upper)
         steps += _steps(lower, upper, V)
         unbounded += np.count_nonzero(np.isinf(upper), axis=(0, 2))

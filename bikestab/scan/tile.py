@@ -205,8 +205,9 @@ def field_values(
 def _ensemble(tile: Tile) -> tuple[NDArray[np.float32], Floats]:
     """The probability at each point (cell, V), and the spread of ``Columns``."""
     assert tile.ensemble is not None
-    draws, quantiles = tile.ensemble.drawn, tile.ensemble.quantiles
-    statistics = ensemble_statistics(tile.family, draws, *tile.cells, tile.V, quantiles, fast=tile.fast)
+    family, quantiles = tile.family, tile.ensemble.quantiles
+    draws, away = tile.ensemble.parted(family.bicycle, (family.x, family.y))
+    statistics = ensemble_statistics(family, draws, *tile.cells, tile.V, quantiles, away, fast=tile.fast)
     spread = np.column_stack([statistics.somewhere, statistics.unbounded, statistics.V1, statistics.V2])
     return statistics.probability, spread.reshape(*tile.shape[:-1], -1)
 

@@ -34,7 +34,7 @@ def command(path: str, name: str, uncertain: bool, force: bool) -> None:
       bikestab init mine.yaml --bicycle meijaard2007
       bikestab init study.yaml --bicycle measured.txt --uncertain
     """
-    from bikestab.config.template import INDEPENDENT, NOT_DRAWN, starting_config
+    from bikestab.config.template import starting_config
     from bikestab.errors import InputError
     from bikestab.files import to_stdout, written
 
@@ -44,7 +44,4 @@ def command(path: str, name: str, uncertain: bool, force: bool) -> None:
         raise InputError("exists already", place=path, hint="--force replaces it")
     with written(path) as part:
         part.write_text(text, "utf-8")
-    for line in text.splitlines():
-        if line.startswith((NOT_DRAWN, INDEPENDENT)):
-            click.echo(f"note: {line.removeprefix('# ')}", err=True)
     click.echo(f"{path}; now 'bikestab scan {path}'", err=to_stdout(path))

@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from bikestab.bicycle import Bicycle
@@ -40,13 +41,11 @@ def test_init_with_uncertainties(bikestab):
     ]
     Path("measured.txt").write_text("".join(lines))
     code, _, err = bikestab("init", "mine.yaml", "--bicycle", "measured.txt", "--uncertain")
-    assert (code, err) == (0, "note: not drawn, as the grid has their values: lam, c\n")
+    assert (code, err) == (0, "")
     config = load_config("mine.yaml")
     drawn = {name: one.normal for name, one in config.ensemble.parameters.items()}
-    fixed = {"lam", "c", "IByy", "IHyy"}  # the grid's, and what is in no equation
+    fixed = {"IByy", "IHyy"}  # which are in no equation
     assert drawn == {k: (v, abs(v) / 100) for k, v in config.bicycle.given.items() if k not in fixed}
-    text = Path("mine.yaml").read_text("utf-8")
-    assert "not drawn, as the grid has their values: lam, c" in text
     code, out, err = bikestab("init", "b.yaml", "--bicycle", "meijaard2007", "--uncertain")
     assert (code, out) == (2, "")
     assert "the bicycle 'meijaard2007' has no uncertainties to draw" in err
@@ -61,9 +60,9 @@ def test_uncertain_radii_of_both_wheels(bikestab):
     assert {k: v.normal for k, v in config.ensemble.parameters.items()} == dict.fromkeys(
         ("R1", "R2"), (0.35, 0.01)
     )
-    assert "# drawn as independent, though some of them are correlated" in Path("mine.yaml").read_text(
-        "utf-8"
-    )
+    assert config.ensemble.pairs == {("R1", "R2"): pytest.approx(1)}
+    radii = config.ensemble.drawn
+    np.testing.assert_allclose(radii["R1"], radii["R2"], rtol=1e-12)
     code, text, err = bikestab("convert", "radii.yaml")
     assert (code, text.count("0.35 +/- 0.01")) == (0, 2)
     assert "note: correlations of the uncertainties cannot be written; left out\n" in err

@@ -187,7 +187,7 @@ NORMAL = "m1: {normal: [80, 8]}, samples: 100"
         ("ensemble: {" + NORMAL + ", quantiles: [0.5, 1]}", "ensemble.quantiles[1]: 1 is no share", "and 1"),
         ("ensemble: {" + NORMAL + ", quantiles: [0.5, 0.2]}", "ensemble.quantiles: 0.2 does not come after",
          "values that increase"),
-        ("ensemble: {lam: {uniform: [0, 1]}, samples: 9}", "ensemble.lam: the grid has the tilt", "grid.lam"),
+        ("ensemble: {lam: {uniform: [0, 3]}, samples: 9}", "ensemble.lam: some samples have a", "narrower"),
         ("ensemble: {m11: {uniform: [0, 1]}, samples: 9}", "ensemble.m11: unknown parameter", "'m1'?"),
         ("sweep: {m1: {start: 1, stop: 2, num: 1000}}\nensemble: {m2: {uniform: [1, 2]}, samples: 100001}",
          "ensemble.samples: 100001 samples of each of 1000 machines are too many", "up to 100000 with"),

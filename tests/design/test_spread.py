@@ -7,9 +7,9 @@ import pytest
 from bicycleparameters.bicycle import benchmark_par_to_canonical
 
 from bikestab.bicycle import Bicycle
-from bikestab.design.draws import drawn
 from bikestab.design.sensitivity import sensitivity
 from bikestab.design.spread import own_spread, plain, spread
+from bikestab.draws import drawn
 from bikestab.errors import InputError
 
 E_BIKE = {  # the balance-assist e-bike of TU Delft, from BicycleParameters

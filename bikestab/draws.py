@@ -1,15 +1,16 @@
-"""Parameters drawn at random from normal distributions, correlated."""
+"""Normal numbers drawn at random, correlated; parameters of them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bikestab.errors import InputError
 from bikestab.machines import standard_normal, uniforms
-from bikestab.model import Floats
 
+Floats = NDArray[np.float64]
 _ROUNDING = 1e-12  # of an eigenvalue, for each row: correlations carry errors of some 1e-16
 
 
@@ -22,9 +23,28 @@ def drawn(
     seed: int,
 ) -> dict[str, Floats]:
     """Samples of parameters: numbers that depend on nothing but seed and name, then correlated."""
+    normal = correlated(names, correlations, samples, seed)
+    return {name: values[name] + deviations[name] * normal[name] for name in names}
+
+
+def correlated(
+    names: list[str], correlations: Mapping[tuple[str, str], float], samples: int, seed: int
+) -> dict[str, Floats]:
+    """Standard normal numbers (sample,) for each name, correlated.
+
+    InputError, with the key ``sd``, for correlations that contradict each other.
+    """
     independent = np.array([standard_normal(uniforms(seed, name, samples)) for name in names])
     normal = _factor(correlation_matrix(names, correlations)) @ independent
-    return {name: values[name] + deviations[name] * z for name, z in zip(names, normal, strict=True)}
+    return dict(zip(names, normal, strict=True))
+
+
+def share_below(normal: Floats) -> Floats:
+    """The standard normal distribution at these numbers, strictly between 0 and 1."""
+    from statistics import NormalDist
+
+    shares = np.fromiter(map(NormalDist().cdf, normal.tolist()), float, len(normal))
+    return np.clip(shares, 2.0**-53, 1 - 2.0**-53)
 
 
 def _factor(matrix: Floats) -> Floats:
