@@ -43,7 +43,7 @@ def tile(shape: tuple[int, ...], delta: float, fields: tuple[str, ...]) -> Tile:
 
 def masks(t: Tile) -> NDArray[np.uint8]:
     """``violated`` (cell, V) of a tile and, to be timed as well, ``stable``."""
-    table = characteristic_table(t.bicycle, t.lam[:, np.newaxis], t.sigma).reshape(5, 4, -1)
+    table = characteristic_table(t.family.bicycle, t.x[:, np.newaxis], t.y).reshape(5, 4, -1)
     mask = violated_between(table, critical(table), t.V)
     field_values("stable", table, t, mask)
     return mask
@@ -51,8 +51,8 @@ def masks(t: Tile) -> NDArray[np.uint8]:
 
 def growth(t: Tile) -> NDArray[np.float32]:
     """``growth_rate`` of a tile."""
-    table = characteristic_table(t.bicycle, t.lam[:, np.newaxis], t.sigma).reshape(5, 4, -1)
-    return field_values("growth_rate", table, t, np.empty((len(t.lam) * len(t.sigma), len(t.V)), np.uint8))
+    table = characteristic_table(t.family.bicycle, t.x[:, np.newaxis], t.y).reshape(5, 4, -1)
+    return field_values("growth_rate", table, t, np.empty((len(t.x) * len(t.y), len(t.V)), np.uint8))
 
 
 @dataclass
@@ -74,13 +74,13 @@ def sample(t: Tile, columns: int, speeds: int) -> Sample:
     A = np.zeros((columns, speeds, 4, 4))
     A[..., 0, 2] = A[..., 1, 3] = 1
     v = t.V[V_at][:, np.newaxis, np.newaxis]
-    damping = np.diag([0, t.bicycle.delta])
+    damping = np.diag([0, t.family.bicycle.delta])
     for row, i, j in zip(A, at_lam, at_sigma, strict=True):
-        M, C1, K0, K2 = canonical_matrices(t.bicycle, t.lam[i], t.sigma[j])
-        row[:, 2:, :2] = -np.linalg.solve(M, t.bicycle.g * K0 + v**2 * K2)
+        M, C1, K0, K2 = canonical_matrices(t.family.bicycle, t.x[i], t.y[j])
+        row[:, 2:, :2] = -np.linalg.solve(M, t.family.bicycle.g * K0 + v**2 * K2)
         row[:, 2:, 2:] = -np.linalg.solve(M, v * C1 + damping)
     at = np.repeat(at_lam, speeds), np.repeat(at_sigma, speeds), np.tile(V_at, columns)
-    return Sample(at, A.reshape(-1, 4, 4), t.lam[at[0]], t.sigma[at[1]] * t.bicycle.c, t.V[at[2]])
+    return Sample(at, A.reshape(-1, 4, 4), t.x[at[0]], t.y[at[1]] * t.family.bicycle.c, t.V[at[2]])
 
 
 def peer_model() -> Meijaard2007Model:
@@ -95,7 +95,7 @@ def peer_model() -> Meijaard2007Model:
 def compare(t: Tile, s: Sample, model: Meijaard2007Model | None, few: slice) -> str:
     """Assert that the methods agree; returns what was found, in words."""
     mask, rate = masks(t), growth(t)
-    table = characteristic_table(t.bicycle, t.lam[:, np.newaxis], t.sigma).reshape(5, 4, -1, 1)
+    table = characteristic_table(t.family.bicycle, t.x[:, np.newaxis], t.y).reshape(5, 4, -1, 1)
     assert np.array_equal(mask, violated(conditions(table, t.V))), "the roots and the conditions differ"
     at = mask.reshape(t.shape)[s.at] == 0
     peer = np.linalg.eigvals(s.matrices).real.max(axis=-1)
@@ -106,7 +106,7 @@ def compare(t: Tile, s: Sample, model: Meijaard2007Model | None, few: slice) -> 
         other = model.calc_eigen(lam=s.lam[few], c=s.c[few], v=s.V[few])[0].real.max(axis=-1)
         assert np.array_equal(at[few][clear[few]], other[clear[few]] < 0), "stable and calc_eigen differ"
     return (
-        f"δ = {t.bicycle.delta:g}: all signs agree at {np.count_nonzero(clear)} points, "
+        f"δ = {t.family.bicycle.delta:g}: all signs agree at {np.count_nonzero(clear)} points, "
         f"{np.count_nonzero(at & clear)} of them stable; {np.count_nonzero(~clear)} were left out, "
         f"with a growth rate within ±{MARGINAL:g} 1/s."
     )

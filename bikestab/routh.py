@@ -40,7 +40,15 @@ def coefficients_at(table: Floats, V: ArrayLike) -> tuple[Floats, Floats, Floats
 
 def conditions(table: Floats, V: ArrayLike) -> Conditions:
     """The left sides of (2.2) at the speeds V [m/s]; shapes as in ``coefficients_at``."""
-    p0, p1, p2, p3, p4 = coefficients_at(table, V)
+    return _with_hurwitz3(*coefficients_at(table, V))
+
+
+def conditions_at_rest(table: Floats) -> Conditions:
+    """The same at V = 0."""
+    return _with_hurwitz3(*table[:, 0])
+
+
+def _with_hurwitz3(p0: Floats, p1: Floats, p2: Floats, p3: Floats, p4: Floats) -> Conditions:
     hurwitz3 = p2 * p3
     hurwitz3 -= p4 * p1
     hurwitz3 *= p1

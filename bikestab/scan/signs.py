@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from bikestab.critical import Critical
 from bikestab.model import Floats
 from bikestab.rounding import NO_SIGN
-from bikestab.routh import CONDITIONS, conditions, violated
+from bikestab.routh import CONDITIONS, conditions, conditions_at_rest, violated
 from bikestab.scan.agreement import size_of_terms
 
 ALL = np.uint8((1 << len(CONDITIONS)) - 1)
@@ -42,12 +42,12 @@ def violated_between(table: Floats, critical: Critical, V: Floats) -> NDArray[np
                 close.append((cell, place[cell] - (below[cell] < above[cell])))
     mask = _runs(first, np.sort(np.array(steps, np.intp).reshape(-1, n).T, axis=1), len(V))
     if V[0] == 0:
-        mask[:, 0] = violated(conditions(table, 0.0))
+        mask[:, 0] = violated(conditions_at_rest(table))
     if close:
         cell, place = np.concatenate(close, axis=1)
         mask[cell, place] = violated(conditions(table[..., cell], V[place]))
     cell = np.flatnonzero(undecided(critical))
-    for part in np.array_split(cell, 1 + len(cell) * len(V) // _PART):
+    for part in np.array_split(cell, 1 + len(cell) * len(V) // _PART) if len(cell) else ():
         mask[part] = _with_clear_signs(mask[part], table[:, :, part, np.newaxis], V)
     return mask
 
