@@ -29,11 +29,14 @@ INERTIA: Units = {
 }  # fmt: skip
 DAMPING: Units = {"kg m²/s": (1, 1), "N m s": (1, 1)}
 ACCELERATION: Units = {"m/s²": (1, 1), "ft/s²": _RATIOS["ft"]}
+RATE: Units = {"rad/s": (1, 1), "deg/s": _DEGREE, "°/s": _DEGREE}
+TIME: Units = {"s": (1, 1), "ms": (1, 1000), "min": (60, 1)}
 PURE: Units = {}
 
 _DIMENSIONS: dict[str, Units] = {
     "an angle": ANGLE, "a length": LENGTH, "a speed": SPEED, "a mass": MASS, "a moment of inertia": INERTIA,
-    "a damping": DAMPING, "an acceleration": ACCELERATION, "a plain number": PURE,
+    "a damping": DAMPING, "an acceleration": ACCELERATION, "a rate": RATE, "a time": TIME,
+    "a plain number": PURE,
 }  # fmt: skip
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
 _COMMA = re.compile(r"[-+]?\d+,\d+\s*[^\d\s,]*", re.ASCII)
