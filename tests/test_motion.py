@@ -40,7 +40,7 @@ def test_motion_is_what_bicycleparameters_simulates(name, monkeypatch):
     push = {"roll": 0.02, "steer": -0.01, "roll_rate": 0.5, "steer_rate": 0.3}
     theirs, _ = model_of(MEASURED[name]).simulate(t, [push[name] for name in STATES], v=5.0)
     found = motion(bs.Bicycle.from_mapping(MEASURED[name]), 5.0, push, t)
-    assert found.states.T == pytest.approx(theirs, abs=1e-8 * max(1.0, float(np.abs(theirs).max())))
+    assert pytest.approx(theirs, abs=1e-8 * max(1.0, float(np.abs(theirs).max()))) == found.states.T
 
 
 def test_the_path_rolls_without_slip():

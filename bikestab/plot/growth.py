@@ -55,13 +55,18 @@ def growth_axes(ax: Axes, machines: Sequence[Curve], start: float, stop: float) 
     ax.axhline(0, color="k", lw=0.8, zorder=1)
     ax.set_xlim(start, stop)
     ax.set_yscale("asinh", linear_width=_LINEAR)
-    steps = [sign * step for step in (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100) for sign in (-1, 1)]
-    ax.yaxis.set_major_locator(FixedLocator([0.0, *steps]))
-    ax.yaxis.set_minor_locator(NullLocator())
-    ax.yaxis.set_major_formatter(lambda tick, _: f"{tick:g}".replace("-", "−"))
+    plain_ticks(ax)
     ax.set_ylim(1.15 * min(low, -0.1), 1.1 * max(high, 0.1))
     ax.set_xlabel("speed V [m/s]")
     ax.set_ylabel(f"growth rate [s⁻¹]  (scale logarithmic beyond ±{_LINEAR:g})")
     ax.tick_params(direction="in", top=True, right=True)
     label_right(ax, [name for name, *_ in machines], [stop] * len(ends), ends, [line.color for line in lines])
     set_title(ax, "Largest real part of the eigenvalues; thick below zero: stable")
+
+
+def plain_ticks(ax: Axes) -> None:
+    """Numbers at 1, 2 and 5 times powers of ten on an axis that is linear below one and logarithmic above."""
+    steps = [sign * step for step in (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500) for sign in (-1, 1)]
+    ax.yaxis.set_major_locator(FixedLocator([0.0, *steps]))
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.yaxis.set_major_formatter(lambda tick, _: f"{tick:g}".replace("-", "−"))

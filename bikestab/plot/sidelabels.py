@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,7 +16,7 @@ from bikestab.plot.headings import short
 COLOURS = ("#4477AA", "#EE6677", "#228833", "#AA3377", "#CCBB44", "#66CCEE")
 DASHES = ("-", (0, (5, 1.5)), (0, (1, 1.2)), (0, (4, 1.2, 1, 1.2)))
 MOST = len(COLOURS) * len(DASHES)
-_APART = 0.042  # of the axes' height: a line of text
+_LINE = 13 / 72  # inches of a line of text
 
 
 class Line(NamedTuple):
@@ -41,7 +41,9 @@ def label_right(
     The limits and scales of the axes are those that stay.
     """
     at = (ax.transData + ax.transAxes.inverted()).transform(np.column_stack([x, y]))
-    places = spread(np.clip(at[:, 1], 0, 1), _APART)
+    figure: Any = ax.figure
+    height = figure.get_figheight() * ax.get_position().height  # before the layout, which changes little
+    places = spread(np.clip(at[:, 1], 0, 1), _LINE / height)
     for name, end, place, color in zip(names, at, places, colors, strict=True):
         ax.annotate(
             short(name), (float(np.clip(end[0], 0, 1)), float(np.clip(end[1], 0, 1))), (1.03, float(place)),

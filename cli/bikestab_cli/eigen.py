@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
+from bikestab_cli.eigen_views import View, view_options
 from bikestab_cli.options import (
     FILE,
     SPEEDS,
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
     help="Speeds [m/s] of the table: START:STOP:NUM, such as 0:36km/h:11, or one.",
 )
 @several_machines
+@view_options
+@click.option("--locus", is_flag=True, help="Let -o draw the eigenvalues in the complex plane.")
 @click.option(
     "-o",
     "--output",
@@ -53,6 +56,8 @@ def command(
     changes: Values,
     model: Model,
     delta: float | None,
+    view: View,
+    locus: bool,
     output: str | None,
     csv_file: str | None,
     as_json: bool,
@@ -71,6 +76,11 @@ def command(
     where the two of weave are real (real if only one is), pair 2 if it oscillates, and weave 2 or capsize 2
     beside another of that name.
 
+    --shapes tells roll and steer in each mode, as phasors; --push the exact motion after a push, the sum of
+    the modes, with the path of the wheels on the road; --over the eigenvalues at one speed against any
+    parameter of the bicycle, or lam, head_angle, sigma, trail, offset. Signs are those of Meijaard et al.
+    (2007): positive to the right.
+
     \b
     Examples:
       bikestab eigen --bicycle meijaard2007
@@ -78,33 +88,63 @@ def command(
       bikestab eigen --head-angle 71deg --offset 45mm --V 0:20mph:5
       bikestab eigen --bicycle meijaard2007 --V 0:36km/h:361 -o modes.png --csv modes.csv
       bikestab eigen --bicycle meijaard2007 --set mB=60,85,110 -o growth.png
+      bikestab eigen --bicycle meijaard2007 --locus -o locus.png
+      bikestab eigen --bicycle meijaard2007 --shapes --at 5
+      bikestab eigen --bicycle meijaard2007 --push 'roll_rate=0.5' --at 5 -o push.png
+      bikestab eigen --bicycle meijaard2007 --over delta=0:5:11 --at 4
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
     from bikestab_cli.eigen_words import told, told_all
 
-    if output and min(speeds) == max(speeds):
+    if output and min(speeds) == max(speeds) and not view.kind:
         raise click.BadParameter("a picture needs a range, for example 0:10:21", param_hint="--V")
     if output and not Path(output).suffix:
         raise click.BadParameter(
             f"{output!r} has no ending, such as .png, .pdf or .svg", param_hint="--output"
         )
+    if locus and (not output or view.kind):
+        raise click.BadParameter("it is a picture of its own: give -o FILE", param_hint="--locus")
     check_files(csv_file, output)
     machines = machines_chosen(bicycle_name, delta, changes)
-    found = [_followed(machine, given, speeds, model) for machine in machines]
-    files = {}
-    if csv_file:
-        _save(found, csv_file)
-        files["csv"] = csv_file
-    if output:
-        _draw(found, min(speeds), max(speeds), model, output)
-        files["picture"] = output
+    files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
+    if view.kind:
+        text, results = _viewed(machines, given, view, model, csv_file, output)
+    else:
+        found = [_followed(machine, given, speeds, model) for machine in machines]
+        if csv_file:
+            _save(found, csv_file)
+        if output:
+            _draw(found, min(speeds), max(speeds), model, locus, output)
+        text = told(found[0], model) if len(found) == 1 else told_all(found, model)
+        results = [[_result(each)] for each in found]
     if as_json:
-        print_json(record_of(machines, model, [[_result(each)] for each in found], files))
+        print_json(record_of(machines, model, results, files))
         return
     for name in files.values():
         tell_file(name)
     if not files:
-        click.echo(told(found[0], model) if len(found) == 1 else told_all(found, model))
+        click.echo(text)
+
+
+def _viewed(
+    machines: list[Chosen], given: Given, view: View, model: Model, csv_file: str | None, output: str | None
+) -> tuple[str, list[list[dict[str, Any]]]]:
+    """What is shown at one speed: the text and the results of each machine; its files are written."""
+    from bikestab_cli.eigen_views import save_picture, shown
+
+    found = [shown(machine, given, view, model) for machine in machines]
+    if csv_file:
+        from bikestab.export.tables import of_machines, save_csv
+
+        blocks = [
+            (machine.bicycle.name, machine.changes, each.blocks())
+            for machine, each in zip(machines, found, strict=True)
+        ]
+        save_csv(*of_machines(found[0].columns, blocks), csv_file)
+    if output:
+        save_picture(found, output)
+    results = [each.record.get("all", [each.record]) for each in found]
+    return "\n\n\n".join(each.text for each in found), results
 
 
 def _followed(machine: Chosen, given: Given, speeds: list[float], model: Model) -> Followed:
@@ -135,11 +175,17 @@ def _save(found: list[Followed], name: str) -> None:
     save_csv(*of_machines(MODES, blocks), name)
 
 
-def _draw(found: list[Followed], start: float, stop: float, model: Model, name: str) -> None:
+def _draw(found: list[Followed], start: float, stop: float, model: Model, locus: bool, name: str) -> None:
     from bikestab.plot.files import save
 
     designs = [(each.machine.bicycle, each.design["lam"], each.design["sigma"]) for each in found]
-    if len(found) == 1:
+    if locus:
+        from bikestab.plot.locus import draw_locus
+
+        if len(found) > 1:
+            raise click.BadParameter("this picture is of one machine", param_hint="--locus")
+        figure = draw_locus(*designs[0], start, stop, model=model)
+    elif len(found) == 1:
         from bikestab.plot.modes import draw_modes
 
         figure = draw_modes(*designs[0], start, stop, model=model)

@@ -103,9 +103,18 @@ def _meetings(modes: Modes, up_to: float) -> list[str]:
     return lines
 
 
-def _table(first: list[str], rows: list[list[str]], fold: int) -> str:
+def eigenvalue_table(first: str, rows: Sequence[tuple[str, Modes]]) -> str:
+    """A row for each of some modes at one speed, behind the cell of the column ``first``."""
+
+    def shown(digits: int) -> str:
+        return _table([], [[cell, *_rows(modes, digits)[0][1:]] for cell, modes in rows], 4, first)
+
+    return _narrow(shown)
+
+
+def _table(first: list[str], rows: list[list[str]], fold: int, axis: str = _HEAD[0]) -> str:
     """The eigenvalues; the last column is left out where it is empty."""
-    head = [*first, *_HEAD]
+    head = [*first, axis, *_HEAD[1:]]
     if not any(row[-1] for row in rows):
         head, rows, fold = head[:-1], [row[:-1] for row in rows], 0 if first else -1
     return table(head, rows, fold=None if fold < 0 else fold)

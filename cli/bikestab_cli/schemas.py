@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from bikestab_cli.eigen_schema import EIGEN
 from bikestab_cli.shapes import (
     DESIGN,
     ENDS,
     INTERVAL,
     INTERVALS,
-    KIND,
     MAYBE_KIND,
     MODEL,
     NULL,
     NUMBERS,
+    OVER,
     TEXTS,
     VERDICT,
     Schema,
@@ -50,24 +51,9 @@ _SPREAD = record(
     unbounded=num("share of them without an upper limit"), V1=_END, V2=_END,
     reasons=some(TEXTS, "why the linear rule is wrong; empty where it is right"),
 )  # fmt: skip
-_BRANCHES = some(
-    record(
-        "one continuous branch", branch=words("what it is at high speeds"),
-        name=some(TEXTS, "its name at each speed"), re=some(NUMBERS, "real part [1/s]"),
-        im=some(NUMBERS, "imaginary part [rad/s]"),
-    ),
-    "the four eigenvalues",
-)  # fmt: skip
-_COALESCENCES = some(
-    record(
-        "two eigenvalues meet", V=num("at this speed [m/s]"), branches=some({"type": "integer"}, "which two"),
-        below=some(TEXTS, "their names below it"), above=some(TEXTS, "and above"),
-    ),
-    "where eigenvalues go from real to complex or back",
-)  # fmt: skip
 _JUDGED = either(
     record(
-        "a design, one of its intervals, and its growth rate",
+        "a design, one of its intervals, and its growth rate", ("over",), over=OVER,
         **DESIGN, V1=maybe("lower end [m/s]; null: nothing is stable"),
         V2=maybe("upper end; null: unbounded"),
         lower=MAYBE_KIND, upper=MAYBE_KIND, width=num("of the interval up to V_max [m/s]"),
@@ -134,19 +120,20 @@ _MACHINE = record(
 )  # fmt: skip
 SCHEMAS: dict[str, Schema] = {
     "vrange": of_machines(
-        "a design", ("spread",), **DESIGN, intervals=INTERVALS, **VERDICT,
+        "a design", ("spread", "over"), over=OVER, **DESIGN, intervals=INTERVALS, **VERDICT,
         nearest=either(_NEAREST, NULL, text="null where there is a stable speed"), spread=_SPREAD,
     ),
-    "eigen": of_machines(
-        "a design", **DESIGN, intervals=INTERVALS, **VERDICT, coalescences=_COALESCENCES,
-        V=some(NUMBERS, "speeds [m/s]"), branches=_BRANCHES,
-    ),
+    "eigen": EIGEN,
     "design": of_machines(
         "a machine's search",
-        searched=record(
-            "what was asked", lam=_PAIR, sigma=_PAIR, trail=_MAYBE_PAIR, offset=_MAYBE_PAIR,
-            V_max=num("intervals count up to here [m/s]"), judged=_MAYBE_PAIR, stable=_MAYBE_PAIR,
-        ),
+        searched={
+            **record(
+                "what was asked, the ends of --over by parameter", ("lam", "sigma", "trail", "offset"),
+                lam=_PAIR, sigma=_PAIR, trail=_MAYBE_PAIR, offset=_MAYBE_PAIR,
+                V_max=num("intervals count up to here [m/s]"), judged=_MAYBE_PAIR, stable=_MAYBE_PAIR,
+            ),
+            "additionalProperties": _PAIR,
+        },
         own=_JUDGED, widest=_JUDGED, lowest_V1=_JUDGED, fastest_decay=_JUDGED,
         pareto=some(_JUDGED, "from the widest to the fastest"), closest=_JUDGED,
     ),
@@ -236,4 +223,3 @@ SCHEMAS: dict[str, Schema] = {
         ),
     },
 }  # fmt: skip
-__all__ = ["KIND", "SCHEMAS"]

@@ -72,6 +72,7 @@ WHOSE = {
     "bicycle": words("its bicycle, where there are several or something is set"),
     "set": named(NUMBERS, "what --set gives it, in SI units"),
 }  # fmt: skip
+OVER = named(NUMBERS, "the values of --over, in SI units")
 OPTIONAL = ("bicycle", "set", "reason")
 MODEL = {"enum": ["refined", "unrefined"], "description": "the paper's equations, or those before them"}
 FILES = named(TEXTS, "files that were written, by what they are: csv, picture, junit; left out without any")

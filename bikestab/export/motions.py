@@ -1,0 +1,50 @@
+"""Mode shapes, motions after a push, and modes against a parameter as the rows of tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from bikestab.against import Against
+from bikestab.export.tables import MODES, Block, Columns, modes_blocks
+from bikestab.motion import STATES, Motion, Shapes
+
+_REAL = ("float64", "1")
+SHAPES: Columns = {
+    "V": ("float64", "m/s"), "name": ("string", ""), "re": ("float64", "1/s"), "im": ("float64", "1/s"),
+    "roll_re": _REAL, "roll_im": _REAL, "steer_re": _REAL, "steer_im": _REAL,
+}  # fmt: skip
+MOTION: Columns = {
+    "t": ("float64", "s"), "roll": ("float64", "rad"), "steer": ("float64", "rad"),
+    "roll_rate": ("float64", "rad/s"), "steer_rate": ("float64", "rad/s"), "yaw": ("float64", "rad"),
+    "x": ("float64", "m"), "y": ("float64", "m"), "y_front": ("float64", "m"),
+}  # fmt: skip
+
+
+def shapes_blocks(found: Shapes) -> Iterator[Block]:
+    """The rows of SHAPES: one for each eigenvalue."""
+    roll, steer = found.phasors
+    yield {
+        "V": np.full(4, found.V), "name": np.array(found.names), "re": found.eigenvalues.real,
+        "im": found.eigenvalues.imag, "roll_re": roll.real, "roll_im": roll.imag,
+        "steer_re": steer.real, "steer_im": steer.imag,
+    }  # fmt: skip
+
+
+def motion_blocks(found: Motion) -> Iterator[Block]:
+    """The rows of MOTION: one for each time."""
+    states = dict(zip(STATES, found.states, strict=True))
+    yield {"t": found.t, **states, "yaw": found.yaw, "x": found.x, "y": found.y, "y_front": found.y_front}
+
+
+def against_columns(found: Against) -> Columns:
+    """MODES with the parameter in front."""
+    return {found.name: ("float64", ""), **MODES}
+
+
+def against_blocks(found: Against) -> Iterator[Block]:
+    """The rows of MODES for each value of the parameter, which is in the first column."""
+    for value, modes in zip(found.values, found.modes, strict=True):
+        for block in modes_blocks(modes):
+            yield {**block, found.name: np.full(len(block["V"]), value)}

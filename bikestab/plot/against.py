@@ -1,0 +1,55 @@
+"""The picture of eigenvalues at one speed against a parameter: real parts solid, imaginary parts dashed."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from bikestab.against import Against
+from bikestab.modenames import OSCILLATING
+from bikestab.plot.growth import plain_ticks
+from bikestab.plot.headings import set_title, short
+from bikestab.plot.lines import entry, legend_below
+from bikestab.plot.modes import BAND, DASHES, STYLES
+from bikestab.plot.settings import own_settings
+
+
+@own_settings()
+def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
+    """A machine by name, at a speed [m/s]; ``unit`` is that of the parameter."""
+    figure = Figure(figsize=(7.4, 5.2), layout="constrained")
+    ax = figure.add_subplot()
+    x = found.values
+    growth = np.array([float(modes.eigenvalues.real.max()) for modes in found.modes])
+    drawn, oscillates = [], False
+    for mode in STYLES:
+        parts = [modes.eigenvalues[modes.names == mode] for modes in found.modes]
+        if not any(len(part) for part in parts):
+            continue
+        color, width = STYLES[mode]
+        drawn.append(entry(mode, color=color, lw=width))
+        number = 1 if mode in OSCILLATING else max(map(len, parts))
+        for k in range(number):
+            real = [sorted(part.real)[k] if len(part) > k else np.nan for part in parts]
+            ax.plot(x, real, color=color, lw=width)
+        if mode in OSCILLATING:
+            oscillates = True
+            imag = [float(np.abs(part.imag).max()) if len(part) else np.nan for part in parts]
+            ax.plot(x, imag, color=color, lw=width, ls=DASHES)
+    ax.axhline(0, color="k", lw=0.8, zorder=1)
+    ax.fill_between(x, 0, 1, where=growth < 0, transform=ax.get_xaxis_transform(), color=BAND, lw=0, zorder=0)
+    ax.set_xlim(x.min(), x.max())
+    ax.set_yscale("asinh", linear_width=1.0)
+    plain_ticks(ax)
+    ax.set_xlabel(f"{found.name} [{unit}]")
+    ax.set_ylabel("eigenvalue [s⁻¹]  (logarithmic beyond ±1)")
+    ax.tick_params(direction="in", top=True, right=True)
+    handles: list[Artist] = [*drawn, entry("real part", color="0.3")]
+    handles += [entry("|imaginary part|", color="0.3", ls=DASHES)] if oscillates else []
+    if np.any(growth < 0):
+        handles.append(Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="stable"))
+    legend_below(figure, handles, ncols=4)
+    set_title(ax, f"{short(name)} at {V:g} m/s")
+    return figure

@@ -1,0 +1,42 @@
+"""The picture of mode shapes: an arrow each for roll and steer, one compass for each mode."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bikestab.motion import Shapes
+from bikestab.plot.headings import set_title, short
+from bikestab.plot.settings import own_settings
+
+_ROLL, _STEER = "#004488", "#BB5566"  # Tol 2021, high contrast
+
+
+@own_settings()
+def draw_shapes(name: str, found: Shapes) -> Figure:
+    """A machine by name: of a complex pair the eigenvalue with the positive imaginary part."""
+    shown = [k for k, s in enumerate(found.eigenvalues) if s.imag >= 0]
+    figure = Figure(figsize=(3.1 * len(shown), 3.9), layout="constrained")
+    figure.suptitle(f"{short(name)} at {found.V:g} m/s: roll and steer in each mode", fontsize=10)
+    for place, k in enumerate(shown, 1):
+        ax = figure.add_subplot(1, len(shown), place, projection="polar")
+        s = found.eigenvalues[k]
+        for phasor, color, text in zip(found.phasors[:, k], (_ROLL, _STEER), ("roll", "steer"), strict=True):
+            size, angle = abs(phasor), float(np.angle(phasor))
+            style = {"arrowstyle": "-|>", "color": color, "lw": 2, "shrinkA": 0, "shrinkB": 0}
+            ax.annotate("", (angle, size), (angle, 0), arrowprops=style)
+            ax.annotate(
+                f"{text} {size:.3g}" + (f", {math.degrees(angle):.0f}°" if abs(angle) > 1e-9 else ""),
+                (angle, max(size, 0.12)), (0, 9 if text == "roll" else -9), textcoords="offset points",
+                color=color, fontsize=9, ha="center", va="center",
+            )  # fmt: skip
+        ax.set_ylim(0, 1.15)
+        ax.set_yticks([0.5, 1], [])
+        ax.set_xticks(np.radians([0, 90, 180, 270]))
+        ax.tick_params(labelsize=8)
+        ax.grid(color="0.85")
+        words = f"{s.real:.3f} ± {s.imag:.3f}i 1/s" if s.imag else f"{s.real:.3f} 1/s"
+        set_title(ax, found.names[k], words.replace("-", "−"), fontsize=9)
+    return figure

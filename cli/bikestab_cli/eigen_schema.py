@@ -1,0 +1,63 @@
+"""The JSON Schema of what eigen prints with --json."""
+
+from __future__ import annotations
+
+from bikestab_cli.shapes import (
+    DESIGN,
+    INTERVALS,
+    NUMBERS,
+    OVER,
+    TEXTS,
+    VERDICT,
+    num,
+    of_machines,
+    record,
+    some,
+    words,
+)
+
+_BRANCHES = some(
+    record(
+        "one continuous branch", branch=words("what it is at high speeds"),
+        name=some(TEXTS, "its name at each speed"), re=some(NUMBERS, "real part [1/s]"),
+        im=some(NUMBERS, "imaginary part [rad/s]"),
+    ),
+    "the four eigenvalues",
+)  # fmt: skip
+_COALESCENCES = some(
+    record(
+        "two eigenvalues meet", V=num("at this speed [m/s]"), branches=some({"type": "integer"}, "which two"),
+        below=some(TEXTS, "their names below it"), above=some(TEXTS, "and above"),
+    ),
+    "where eigenvalues go from real to complex or back",
+)  # fmt: skip
+_PHASOR = record(
+    "as a complex number; the larger of roll and steer is 1", re=num("real"), im=num("imaginary")
+)
+_SHAPES = some(
+    record(
+        "an eigenvalue",
+        name=words("its mode"),
+        re=num("[1/s]"),
+        im=num("[rad/s]"),
+        roll=_PHASOR,
+        steer=_PHASOR,
+    ),
+    "the four eigenvalues at the speed, with --shapes",
+)
+_MOTION = record(
+    "the motion, with --push; positive to the right",
+    t=some(NUMBERS, "times [s]"), roll=some(NUMBERS, "[rad]"), steer=some(NUMBERS, "[rad]"),
+    roll_rate=some(NUMBERS, "[rad/s]"), steer_rate=some(NUMBERS, "[rad/s]"), yaw=some(NUMBERS, "[rad]"),
+    x=some(NUMBERS, "along the road [m]"), y=some(NUMBERS, "rear contact, sideways [m]"),
+    y_front=some(NUMBERS, "front contact, sideways [m]"),
+)  # fmt: skip
+_PUSH = {"type": "object", "additionalProperties": NUMBERS, "description": "states at the start [rad, rad/s]"}
+_ALONG = ("intervals", "marginal", "coalescences", "V", "branches")  # without --shapes and --push
+EIGEN = of_machines(
+    "a design; with --shapes or --push what these give",
+    (*_ALONG, "over", "at", "shapes", "push", "motion"),
+    over=OVER, **DESIGN, intervals=INTERVALS, **VERDICT, coalescences=_COALESCENCES,
+    V=some(NUMBERS, "speeds [m/s]"), branches=_BRANCHES, at=num("the speed [m/s]"), shapes=_SHAPES,
+    push=_PUSH, motion=_MOTION,
+)  # fmt: skip

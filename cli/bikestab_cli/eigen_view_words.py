@@ -1,0 +1,77 @@
+"""Mode shapes, the motion after a push, and modes against a parameter in words and tables."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from bikestab_cli.eigen_words import eigenvalue_table
+from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, prose, table
+
+if TYPE_CHECKING:
+    from bikestab_cli.several import Chosen
+
+    from bikestab.against import Against
+    from bikestab.model import Model
+    from bikestab.motion import Motion, Shapes
+
+_ROWS = 11  # of a motion
+_MOST = 60  # values of a parameter
+
+
+def told_shapes(machine: Chosen, design: Any, found: Shapes, model: Model) -> str:
+    """Size and phase of roll and steer in each mode; of a pair those of the upper one."""
+    rows = []
+    for name, s, (roll, steer) in zip(found.names, found.eigenvalues, found.phasors.T, strict=True):
+        if s.imag < 0:
+            continue
+        value = f"{s.real:z.6f}" + (f" ± {s.imag:z.6f}i" if s.imag else "")
+        rows.append([name, value, *_polar(roll), *_polar(steer)])
+    head = ["mode", "eigenvalue [1/s]", "roll", "phase [°]", "steer", "phase [°]"]
+    note = "the larger of the two is 1; positive to the right; rates are these times the eigenvalue"
+    return _whole(machine, design, model, [f"mode shapes at {found.V:.6g} m/s", table(head, rows), note])
+
+
+def _polar(phasor: complex) -> list[str]:
+    phase = math.degrees(cmath.phase(phasor))
+    return [f"{abs(phasor):.6f}", f"{0.0 if abs(phase) < 1e-9 else phase:z.3f}"]
+
+
+def told_motion(machine: Chosen, design: Any, found: Motion, push: Mapping[str, float], model: Model) -> str:
+    """The motion at a few of its times."""
+    pushed = ", ".join(f"{name} = {value:.6g} {_unit(name)}" for name, value in push.items())
+    last = len(found.t) - 1
+    rows = []
+    for i in range(_ROWS):
+        k = round(i * last / (_ROWS - 1))
+        roll, steer = found.states[:2, k]
+        values = (roll, steer, found.yaw[k], found.x[k], found.y[k], found.y_front[k])
+        rows.append([f"{found.t[k]:.4g}", *(f"{value:z.6f}" for value in values)])
+    names = ["t\n[s]", "roll\n[rad]", "steer\n[rad]", "yaw\n[rad]"]
+    names += ["along\n[m]", "rear wheel\n[m]", "front wheel\n[m]"]
+    note = "all positive to the right; the wheels' contacts are so far to the right of the line ridden before"
+    return _whole(machine, design, model, [f"at {found.V:.6g} m/s after {pushed}", table(names, rows), note])
+
+
+def _unit(name: str) -> str:
+    return "rad/s" if name.endswith("rate") else "rad"
+
+
+def told_against(machine: Chosen, found: Against, V: float, unit: str, model: Model) -> str:
+    """A row of eigenvalues for each value of the parameter."""
+    every = range(0, len(found.values), -(-len(found.values) // _MOST))
+    rows = [(f"{found.values[i]:.6g}", found.modes[i]) for i in every]
+    words = f"{found.name} [{unit}] at {V:.6g} m/s"
+    if len(rows) < len(found.values):
+        words += f"; every {every.step}th of {len(found.values)} values, which --json and --csv have all"
+    changed = f" ({machine.changes})" if machine.set else ""
+    table_ = eigenvalue_table(f"{found.name}\n[{unit}]", rows)
+    return prose(f"{heading(machine.bicycle, model)}{changed}\n{words}\n\n{table_}")
+
+
+def _whole(machine: Chosen, design: Any, model: Model, parts: list[str]) -> str:
+    changed = f" ({machine.changes})" if machine.set else ""
+    head = [heading(machine.bicycle, model) + changed, table(DESIGN_HEAD, [design_columns(design)])]
+    return prose("\n\n".join([*head, *parts]))

@@ -1,0 +1,131 @@
+"""bikestab eigen at one speed: mode shapes, the motion after a push, a parameter; and the root locus."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bikestab as bs
+from bikestab.against import modes_against
+from bikestab.motion import motion, shapes
+from bikestab.plot.locus import draw_locus
+from bikestab.plot.shapes import draw_shapes
+
+BENCHMARK = ("--bicycle", "meijaard2007")
+BIKE = bs.Bicycle.preset("meijaard2007")
+
+
+def rows(name):
+    with Path(name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_shapes(bikestab):
+    code, out, err = bikestab("eigen", *BENCHMARK, "--shapes", "--at", "18km/h")
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    (weave,) = (line.split() for line in out.splitlines() if line.split()[:1] == ["weave"])
+    found = shapes(BIKE, 5.0)
+    assert weave[1:4] == ["-0.775342", "±", "4.464868i"]
+    assert float(weave[4]) == pytest.approx(abs(found.phasors[0, 0]), abs=1e-6)
+    assert float(weave[5]) == pytest.approx(np.degrees(np.angle(found.phasors[0, 0])), abs=1e-3)
+    assert bikestab("eigen", *BENCHMARK, "--shapes", "--at", "5", "--csv", "a.csv", "-o", "a.png")[1] == (
+        "a.csv\na.png\n"
+    )
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
+    assert [complex(float(r["steer_re"]), float(r["steer_im"])) for r in rows("a.csv")] == [*found.phasors[1]]
+    texts = [text.get_text() for text in draw_shapes("mine", found).axes[1].texts]
+    assert texts[1:] == ["", "steer 0.386"] or texts[-1].startswith("steer 0.")
+
+
+def test_the_speed_is_by_default_in_the_middle(bikestab):
+    found = json.loads(bikestab("eigen", *BENCHMARK, "--shapes", "--json")[1])["results"][0]
+    assert found["at"] == pytest.approx((4.292382536341 + 6.024262015388) / 2)
+
+
+def test_push(bikestab):
+    push = ("--push", "roll_rate=0.5", "--at", "5", "--until", "2s")
+    code, out, err = bikestab("eigen", *BENCHMARK, *push)
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    found = motion(BIKE, 5.0, {"roll_rate": 0.5}, np.linspace(0, 2, 501))
+    last = [line.split() for line in out.splitlines() if line.lstrip().startswith("2 ")][-1]
+    assert [float(x) for x in last] == pytest.approx(
+        [2, *found.states[:2, -1], found.yaw[-1], 10, found.y[-1], found.y_front[-1]], abs=1e-6
+    )
+    bikestab("eigen", *BENCHMARK, *push, "--csv", "a.csv")
+    table = rows("a.csv")
+    assert len(table) == 501
+    assert [float(row["steer"]) for row in table] == found.states[1].tolist()
+    assert bikestab("eigen", *BENCHMARK, "--push", "roll=2deg", "-o", "a.svg")[:2] == (0, "a.svg\n")
+
+
+def test_over_a_parameter(bikestab):
+    """Each value is the machine with it."""
+    args = ("--over", "delta=0:5:6", "--at", "4")
+    code, out, err = bikestab("eigen", *BENCHMARK, *args)
+    assert (code, err) == (0, "")
+    assert out.splitlines()[-6].split() == ["0", "0.413253", "±", "3.079108i", "-1.429444", "-12.158614"]
+    found = json.loads(bikestab("eigen", *BENCHMARK, *args, "--json")[1])["results"]
+    assert [each["over"] for each in found] == [{"delta": float(x)} for x in range(6)]
+    for each in found[1::2]:
+        alone = ("--set", f"delta={each['over']['delta']}", "--V", "4", "--json")
+        (one,) = json.loads(bikestab("eigen", *BENCHMARK, *alone)[1])["results"]
+        assert each["intervals"] == one["intervals"]
+        assert [b["re"] for b in each["branches"]] == [b["re"] for b in one["branches"]]
+    bikestab("eigen", *BENCHMARK, *args, "--csv", "a.csv", "-o", "a.png")
+    assert [row["delta"] for row in rows("a.csv")][3:5] == ["0.0", "1.0"]
+
+
+@pytest.mark.parametrize("name", ["lam", "head_angle", "sigma", "trail", "offset", "mB", "w", "m1"])
+def test_over_any_parameter(name):
+    from bikestab.variants import own_value
+
+    own = own_value(BIKE, name)
+    found = modes_against(BIKE, name, [own, own * 1.01], 5.0)
+    expected = bs.modes(BIKE, [5.0]).eigenvalues[:, 0]
+    assert found.modes[0].eigenvalues[:, 0] == pytest.approx(expected, rel=1e-12)
+    assert np.abs(found.modes[1].eigenvalues[:, 0] - expected).max() > 1e-5
+
+
+def test_a_design_beside_the_parameter(bikestab):
+    code, out, _ = bikestab("eigen", "--lam", "0.2", "--sigma", "0.08", "--over", "delta=0:2:3", "--at", "4")
+    assert code == 0
+    assert len(out.splitlines()[-1].split()) == 6
+
+
+def test_locus(bikestab):
+    assert bikestab("eigen", *BENCHMARK, "--locus", "-o", "a.png")[:2] == (0, "a.png\n")
+    (ax,) = draw_locus(BIKE, BIKE.lam, BIKE.sigma, 0, 10).axes
+    curves = np.concatenate([line.get_xydata() for line in ax.lines])
+    s = bs.eigenvalues(BIKE, 5.0)
+    for each in s:
+        assert np.abs(curves - [each.real, each.imag]).sum(axis=1).min() < 0.02
+    assert {"0", "5", "10"} <= {text.get_text() for text in ax.texts}
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (["--push", "rol=1"], "'rol=1' is not STATE=VALUE, with one of roll, steer, roll_rate"),
+        (["--push", "roll=1m"], "it is a length, not an angle"),
+        (["--push", "roll_rate=5deg"], "it is an angle, not a rate"),
+        (["--push", "roll=1", "--at", "1", "--until", "1000s"], "it grows beyond all numbers"),
+        (["--push", "roll=1", "--until", "0"], "--until: allowed: above 0"),
+        (["--shapes", "--push", "roll=1"], "give one of --shapes, --push and --over"),
+        (["--over", "delta=0:5:6"], "--over needs a speed: give --at"),
+        (["--over", "delt=0:5:6", "--at", "5"], "there is no parameter 'delt'"),
+        (["--over", "delta=-1:5:6", "--at", "5"], "delta"),
+        (["--locus"], "--locus: it is a picture of its own: give -o FILE"),
+        (["--shapes", "--at", "-1"], "--at: -1"),
+        (["--shapes", "--bicycle", "kooijman2011", "-o", "a.png"], "give --at"),
+        (["--shapes", "--bicycle", "sharp1971", "-o", "a.png"], "this picture is of one machine"),
+    ],
+)
+def test_mistakes(bikestab, args, words):
+    code, out, err = bikestab("eigen", *BENCHMARK, *args)
+    assert (code, out) == (2, "")
+    assert words in " ".join(err.split())
+    assert not list(Path().iterdir())
