@@ -31,20 +31,14 @@ _COALESCENCES = some(
     ),
     "where eigenvalues go from real to complex or back",
 )  # fmt: skip
-_PHASOR = record(
-    "as a complex number; the larger of roll and steer is 1", re=num("real"), im=num("imaginary")
-)
+_PHASOR = record("a complex number; the larger of the two is 1", re=num("real"), im=num("imaginary"))
 _SHAPES = some(
     record(
-        "an eigenvalue",
-        name=words("its mode"),
-        re=num("[1/s]"),
-        im=num("[rad/s]"),
-        roll=_PHASOR,
-        steer=_PHASOR,
+        "an eigenvalue", name=words("its mode"), re=num("[1/s]"), im=num("[rad/s]"),
+        roll=_PHASOR, steer=_PHASOR,
     ),
     "the four eigenvalues at the speed, with --shapes",
-)
+)  # fmt: skip
 _MOTION = record(
     "the motion, with --push; positive to the right",
     t=some(NUMBERS, "times [s]"), roll=some(NUMBERS, "[rad]"), steer=some(NUMBERS, "[rad]"),

@@ -207,8 +207,13 @@ def _speed(bicycle: Any, lam: float, sigma: float, view: View, model: Model) -> 
 def _told(**others: str) -> Iterator[None]:
     from bikestab_cli.options import told_as_options
 
-    with told_as_options(V="--at", t="--until", **others):
-        yield
+    try:
+        with told_as_options(V="--at", **others):
+            yield
+    except click.BadParameter as error:
+        if error.param_hint == "--t":
+            error.param_hint = "--until"
+        raise
 
 
 def save_picture(found: list[Shown], output: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -231,7 +232,7 @@ def told_as_options(**others: str) -> Iterator[None]:
             problem = f"{error.problem}: give {option}, for example {option} {example}"
             raise click.UsageError(problem, click.get_current_context()) from None
         for argument, its_option in others.items():
-            hint = hint.replace(argument, its_option)
+            hint = re.sub(rf"(?<![\w-]){re.escape(argument)}\b", its_option, hint)
         problem = f"{error.problem}; {hint}" if hint else error.problem
         raise click.BadParameter(problem, param_hint=option) from None
 
