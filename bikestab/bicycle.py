@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
+from bikestab.gains import GAINS
 from bikestab.limits import check_product, check_tilt, check_trail, check_value, require
 from bikestab.notation import MEASURED, MEIJAARD, OPTIONAL, superseded, two_parts
 from bikestab.plausible import warnings_of
@@ -69,6 +70,7 @@ class Bicycle:
     sigma: float | None = _parameter("1", "own trail divided by the wheelbase", default=None)
     name: str = "bicycle"
     source: str = ""
+    gains: tuple[tuple[str, float], ...] = ()  # of a steer torque by feedback, by the names of GAINS
     remarks: tuple[str, ...] = ()  # warnings about the bodies these parameters were reduced from
     bodies: Mapping[str, float] | None = _beside(default=None)
     deviations: Mapping[str, float] = _beside(default_factory=dict)
@@ -77,6 +79,8 @@ class Bicycle:
     shape: ClassVar[tuple[int, ...]] = ()  # of each parameter, as in machines.Machines
 
     def __post_init__(self) -> None:
+        for name, gain in self.gains:
+            check_value(name, gain, "", GAINS[name])
         for p in parameters():
             value = getattr(self, p.name)
             if value is None and p.name in ("lam", "sigma"):
@@ -107,14 +111,14 @@ class Bicycle:
 
     def numbers(self) -> dict[str, float | None]:
         """The parameters by name, as plain numbers."""
-        return {p.name: getattr(self, p.name) for p in parameters()}
+        return {**{p.name: getattr(self, p.name) for p in parameters()}, **dict(self.gains)}
 
     @property
     def notation(self) -> dict[str, str]:
         """The parameters of the notation the bicycle was given in, with meaning and unit of each."""
-        if self.bodies is None:
-            return PAPER
-        return {**MEIJAARD, **RIDER} if "rider.m" in self.bodies else MEIJAARD
+        own = PAPER if self.bodies is None else MEIJAARD
+        rider = RIDER if self.bodies is not None and "rider.m" in self.bodies else {}
+        return {**own, **rider, **GAINS}
 
     @property
     def given(self) -> dict[str, float]:
@@ -164,7 +168,7 @@ class Bicycle:
                     raise InputError(f"{shown(text)} is not text", key=(key,))
                 texts[key] = str(text)  # YAML readers give subclasses
         notation = {**MEIJAARD, **RIDER} if _is_meijaard(values) else PAPER
-        known = {**notation, **MEASURED}
+        known = {**notation, **MEASURED, **GAINS}
         for key in values:
             if key not in known:
                 other = " (a key of the other notation)" if key in {**MEIJAARD, **RIDER, **PAPER} else ""
@@ -181,7 +185,9 @@ class Bicycle:
         if notation is not PAPER:
             needed = notation if any(key in RIDER for key in numbers) else MEIJAARD
             require(numbers, [key for key in needed if key not in OPTIONAL], needed)
-            bicycle = cls(**two_parts(numbers), name=texts["name"], source=texts["source"])
+            bicycle = cls(
+                **two_parts(numbers), name=texts["name"], source=texts["source"], gains=_gains(numbers)
+            )
             object.__setattr__(bicycle, "bodies", numbers)
             return bicycle
         return _from_paper(numbers, texts)
@@ -238,6 +244,11 @@ def _is_meijaard(values: Mapping[Any, Any]) -> bool:
     return len(only) > len(other)
 
 
+def _gains(numbers: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
+    """Those that are not zero, in the order of GAINS."""
+    return tuple((name, float(numbers[name])) for name in GAINS if numbers.get(name))
+
+
 def _from_paper(n: dict[str, float], texts: dict[str, str]) -> Bicycle:
     if "R" in n:
         for key in ("R1", "R2"):
@@ -245,6 +256,8 @@ def _from_paper(n: dict[str, float], texts: dict[str, str]) -> Bicycle:
                 raise InputError("R and " + key + " are both given", key=(key,), hint="give R, or R1 and R2")
         n["R1"] = n["R2"] = n.pop("R")
     radii = ("R1", "R2") if "R1" in n or "R2" in n else ("R",)
+    gains = _gains(n)
+    n = {name: value for name, value in n.items() if name not in GAINS}
     others = [p.name for p in parameters() if p.name not in (*_OPTIONAL, "R1", "R2")]
     require(n, (*others, *radii), PAPER)
-    return Bicycle(**n, **texts)  # type: ignore[arg-type]  # the keys were checked against PAPER
+    return Bicycle(**n, **texts, gains=gains)  # type: ignore[arg-type]  # the keys were checked against PAPER

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from bikestab.algebra import Polynomial, Ratio, common_denominator
 from bikestab.bicycle import Bicycle
+from bikestab.errors import InputError
 from bikestab.letters import PARAMETERS, Model, letters
 from bikestab.model import Coefficients, coefficients_of, entries_of
 from bikestab.notation import reduced
@@ -44,6 +45,9 @@ def coefficient_formulas(bicycle: Bicycle, *, model: Model = "refined") -> Coeff
 
 
 def _letters(bicycle: Bicycle, varied: Sequence[str], model: Model) -> SimpleNamespace:
+    if bicycle.gains:
+        problem = f"the bicycle {bicycle.name!r} has feedback, which exact formulas do not know"
+        raise InputError(problem, hint="leave its gains out")
     variables = (*DESIGN, *varied)
     number = len(variables)
 

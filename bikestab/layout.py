@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from bikestab.bicycle import PAPER, Bicycle
 from bikestab.errors import InputError
 from bikestab.fields import AXES, FIELDS, Axes
+from bikestab.gains import GAINS
 from bikestab.hdf5 import text_of
 from bikestab.kinds import KINDS, REASONS, UNBOUNDED
 from bikestab.notation import MEIJAARD
@@ -64,7 +65,7 @@ def grid_axes(file: h5py.File) -> Axes:
     if "axes" not in file.attrs:
         return AXES
     names = text_of(file, "axes").split()
-    known = {**PAPER, **MEIJAARD, **RIDER, **FRONT}
+    known = {**PAPER, **MEIJAARD, **RIDER, **FRONT, **GAINS}
     if len(names) != 3 or names[2] != "V" or names[0] == names[1] or not {*names[:2]} <= known.keys():
         raise InputError(
             f"the attribute 'axes' is {' '.join(names)[:40]!r}", hint="allowed: two parameters and V"
@@ -83,7 +84,9 @@ def bicycle_of(numbers: Mapping[str, float | None], name: str = "bicycle", sourc
     """The bicycle of numbers as a volume keeps them: the paper's, or those of bodies."""
     if "w" in numbers:
         return Bicycle.from_mapping({**numbers, "source": source}, name=name)
-    return Bicycle(**numbers, name=name, source=source)  # type: ignore[arg-type]  # λ and σ may be None
+    gains = tuple((key, float(numbers[key] or 0.0)) for key in GAINS if numbers.get(key))
+    numbers = {key: value for key, value in numbers.items() if key not in GAINS}
+    return Bicycle(**numbers, name=name, source=source, gains=gains)  # type: ignore[arg-type]  # λ and σ may be None
 
 
 def machine_names(data: h5py.Dataset) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle, parameters
 from bikestab.errors import InputError
+from bikestab.gains import GAINS
 from bikestab.limits import MOST_TRAIL, allowed, doubts, exceeds
 from bikestab.notation import CHECKS, INERTIAS, PARTS, reduced
 
@@ -66,6 +67,7 @@ class Machines:
     delta: Any
     bodies: Mapping[str, Any] | None = None
     parts: tuple[str, ...] = ()
+    gains: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def number(self) -> int:
@@ -103,6 +105,8 @@ class Machines:
         They are those of its notation, or of the two parts that it is reduced to.
         """
         numbers: dict[str, Any] = {**bicycle.given, **columns}
+        gains = {name: numbers.pop(name) for name in GAINS if name in numbers}
+        columns = {name: values for name, values in columns.items() if name not in GAINS}
         ours = {} if bicycle.bodies is None else bicycle.notation
         parts = {name: values for name, values in columns.items() if name not in ours}
         if "R" in parts:
@@ -113,7 +117,11 @@ class Machines:
             numbers = reduced(bodies)
         numbers = {"delta": 0.0, **numbers, **parts}
         return cls(
-            shape=shape, bodies=bodies, parts=(*parts,), **{p.name: numbers[p.name] for p in _PARAMETERS}
+            shape=shape,
+            bodies=bodies,
+            parts=(*parts,),
+            gains=gains,
+            **{p.name: numbers[p.name] for p in _PARAMETERS},
         )
 
     @property
@@ -149,7 +157,7 @@ class Machines:
         numbers = chosen({p.name: getattr(self, p.name) for p in _PARAMETERS})
         bodies = None if self.bodies is None else chosen(self.bodies)
         shape = len(range(*samples.indices(self.number))), 1
-        return Machines(shape=shape, bodies=bodies, parts=self.parts, **numbers)
+        return Machines(shape=shape, bodies=bodies, parts=self.parts, gains=chosen(self.gains), **numbers)
 
 
 _PARAMETERS = [p for p in parameters() if p.name not in ("lam", "sigma")]

@@ -6,6 +6,7 @@ Equation numbers are those of Dikarev, Dikareva and Fufaev (1981); docs/theory.m
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import prod
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.bicycle import Bicycle
+from bikestab.gains import GAINS, rate_and_power
 from bikestab.letters import MODELS as MODELS
 from bikestab.letters import Model as Model
 from bikestab.letters import determinant, letters_of, unordered_letters_of
@@ -179,7 +181,7 @@ def entries_of(n: SimpleNamespace) -> dict[tuple[int, int], Any]:
     if n.missing is not None:
         turning = turning - n.missing
     spins = n.C1 + n.C2
-    return {
+    entries = {
         (4, 0): c * c * (n.J1 * n.M22 - n.M12 * n.M12),
         (3, 1): along * (n.J1 * n.N - n.M12 * n.Q),
         (3, 0): c * c * n.delta * n.J1,
@@ -191,6 +193,24 @@ def entries_of(n: SimpleNamespace) -> dict[tuple[int, int], Any]:
         (0, 2): down * turning,
         (0, 0): weight * weight * (-n.S * n.U),
     }
+    if gains := {name: gain for name, gain in vars(n.p).items() if name in GAINS}:
+        _add_feedback(entries, n, gains)
+    return entries
+
+
+def _add_feedback(entries: dict[tuple[int, int], Any], n: SimpleNamespace, gains: Mapping[str, Any]) -> None:
+    """Add what a steer torque −k q has in the determinant: its column of M s² + C1 V s + g K0 + V² K2."""
+    c, cos = n.c, n.cos
+    of_steer = {(2, 0): c * c * n.J1, (0, 0): c * c * n.g * (-n.h)}
+    of_roll = {
+        (2, 0): c * c * (-n.M12), (1, 1): c * cos * (-(n.Q + c * n.T)),
+        (0, 0): c * c * n.g * n.S, (0, 2): c * cos * (-(n.h + n.C1 + n.C2)),
+    }  # fmt: skip
+    for name, gain in gains.items():
+        roll, rate, power = rate_and_power(name)
+        for (k, j), factor in (of_roll if roll else of_steer).items():
+            key, term = (k + rate, j + power), factor * gain
+            entries[key] = entries[key] + term if key in entries else term
 
 
 def _chosen(which: NDArray[np.bool_], a: Twofold, b: Twofold) -> Twofold:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from bikestab.bicycle import Bicycle
 from bikestab.dual import Dual, seed
+from bikestab.gains import GAINS
 from bikestab.letters import letters
 from bikestab.model import Model, entries_of
 from bikestab.notation import reduced
@@ -68,7 +69,8 @@ def slopes_of(
 
     numbers = {name: variable(name, value) for name, value in given.items()}
     if bicycle.bodies is not None:
-        numbers = reduced(numbers)
+        gains = {name: numbers[name] for name in GAINS if name in numbers}
+        numbers = reduced(numbers) | gains
     skates = [i for i in "12" if getattr(bicycle, f"R{i}") == 0]
     for i in skates:
         numbers[f"R{i}"] = numbers[f"C{i}"] + 1.0

@@ -22,6 +22,7 @@ from bikestab.bicycle import PAPER, parameters
 from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.fields import AXES, COORDINATES, FIELDS, Axes
+from bikestab.gains import GAINS
 from bikestab.hdf5 import check_links, check_whole, dataset, number_of, open_file, reading, text_of
 from bikestab.identity import identity
 from bikestab.layout import (
@@ -71,7 +72,7 @@ def _sweep(file: h5py.File) -> dict[str, Floats]:
     """The values of the sweep's axes by their names."""
     with reading("machine"):
         names = sweep_names(file)
-    known = {**PAPER, **MEIJAARD, **RIDER}
+    known = {**PAPER, **MEIJAARD, **RIDER, **GAINS}
     for name in names:
         if name not in known:
             raise InputError(f"has an axis {name[:40]!r}, which is no parameter", key=("machine",))
@@ -153,6 +154,7 @@ def _check_names(names: list[str], where: str) -> None:
     known: dict[str, bool] = {p.name: p.default is MISSING for p in parameters()}  # and whether it is needed
     if "w" in names:
         known = {name: name not in OPTIONAL and name not in RIDER for name in (*MEIJAARD, *RIDER)}
+    known |= dict.fromkeys(GAINS, False)
     for name in names:
         if name not in known:
             raise InputError(f"{name[:40]!r} is no parameter", key=(where,))

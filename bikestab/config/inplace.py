@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bikestab.bicycle import PAPER
 from bikestab.config.values import json_schema
+from bikestab.gains import GAINS
 from bikestab.notation import MEASURED, MEIJAARD
 from bikestab.rider import RIDER
 from bikestab.units import units_in
@@ -22,7 +23,7 @@ IN_PLACE = {
     "type": "object",
     "properties": {
         key: {"description": text, **json_schema(units_in(text))}
-        for key, text in {**PAPER, **MEIJAARD, **MEASURED}.items()
+        for key, text in {**PAPER, **MEIJAARD, **MEASURED, **GAINS}.items()
     }
     | {"name": {"type": "string"}, "source": {"type": "string"}, "rider": _RIDER},
     "additionalProperties": False,

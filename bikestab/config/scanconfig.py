@@ -176,7 +176,8 @@ class ScanConfig(Strict):
     def kept(self) -> tuple[list[str], Floats]:
         """What a volume keeps of each machine: the parameters' names, and a row of each, NaN for None."""
         kept = [self.family(i).kept for i in range(len(self.members))]
-        return list(kept[0]), np.array([[numbers[name] for name in kept[0]] for numbers in kept], float)
+        names = list(dict.fromkeys(name for numbers in kept for name in numbers))  # a zero gain is left out
+        return names, np.array([[numbers.get(name, 0.0) for name in names] for numbers in kept], float)
 
     @property
     def compiled(self) -> bool:

@@ -15,6 +15,7 @@ from bikestab.config.distributions import Distribution as Distribution
 from bikestab.config.values import Share, Strict, in_si, increasing, mistake
 from bikestab.draws import correlated
 from bikestab.errors import nearest
+from bikestab.gains import GAINS
 from bikestab.machines import Machines, uniforms
 from bikestab.model import Floats
 from bikestab.notation import MEIJAARD
@@ -22,7 +23,7 @@ from bikestab.rider import RIDER
 from bikestab.variants import FRONT, fixed_by, front_of
 
 MOST_SAMPLES = 1_000_000  # of an ensemble
-BOTH = {**PAPER, **MEIJAARD, **RIDER}
+BOTH = {**PAPER, **MEIJAARD, **RIDER, **GAINS}
 VARIED = {**BOTH, **FRONT}
 SWEPT = [name for name in BOTH if name not in ("lam", "sigma", "trail")]  # known in either notation
 DRAWN = list(VARIED)

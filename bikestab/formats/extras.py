@@ -25,8 +25,14 @@ UNUSED = {
 _ZERO = {
     "yB", "yD", "yF", "yH", "yP", "yR", "xR", "alphaR", "alphaF",
     "IBxy", "IByz", "IHxy", "IHyz", "IRxz", "IFxz",
-    *(f"kT{torque}_{state}" for torque in ("phi", "del") for state in ("phi", "del", "phid", "deld")),
+    *(f"kTphi_{state}" for state in ("phi", "del", "phid", "deld")),
 }  # fmt: skip
+_FEEDBACK = {
+    "kTdel_phi": "k_phi",
+    "kTdel_del": "k_delta",
+    "kTdel_phid": "k_phidot",
+    "kTdel_deld": "k_deltadot",
+}
 _MUST_BE: dict[str, tuple[str, Callable[[Mapping[str, float]], float]]] = {
     **{key: ("0", lambda n: 0.0) for key in _ZERO},
     "kRbb": ("kRaa", lambda n: n["kRaa"]),
@@ -54,6 +60,9 @@ def without_extras(values: Mapping[Any, Any]) -> tuple[dict[Any, Any], list[str]
     numbers = _in_si(values)
     for key in values:
         if key in MEIJAARD:
+            continue
+        if key in _FEEDBACK:
+            kept[_FEEDBACK[key]] = kept.pop(key)
             continue
         if key in UNUSED and (key != "rider" or isinstance(values[key], (bool, str, type(None)))):
             unused.append(key)

@@ -53,6 +53,7 @@ def label_axes(ax: Axes, x: str, y: str, wheelbase: float) -> None:
 def remarks(bicycle: Bicycle, model: Model) -> str:
     """The end of a title: what is unusual about damping and model."""
     damping = f", δ = {bicycle.delta:g} kg m²/s" if bicycle.delta else ""
+    damping += "".join(f", {name} = {gain:g}" for name, gain in bicycle.gains)
     return damping + (", unrefined model" if model == "unrefined" else "")
 
 

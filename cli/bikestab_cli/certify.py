@@ -168,6 +168,9 @@ def _of_config(name: str) -> tuple[Bicycle, Model, dict[str, Ends]]:
                 key=(key,),
                 hint=f"leave {key} out, or give ranges as --tolerance",
             )
+    if config.grid.names != ("lam", "sigma", "V"):
+        problem = f"its grid is over {config.grid.names[0]} and {config.grid.names[1]}"
+        raise InputError(problem, key=("grid",), hint="only tilt and trail are certified")
     return config.machine, config.model, {axis: config.grid.ends(axis) for axis in ("lam", "sigma", "V")}
 
 

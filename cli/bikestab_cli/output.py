@@ -123,7 +123,8 @@ def heading(bicycle: Bicycle, model: str) -> str:
     context = click.get_current_context(silent=True)
     default = context and context.get_parameter_source("bicycle_name") == click.core.ParameterSource.DEFAULT
     whose = " (no --bicycle: the paper's)" if default else ""
-    return f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s{whose}"
+    gains = "".join(f", {name} = {gain:g}" for name, gain in bicycle.gains)
+    return f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s{gains}{whose}"
 
 
 def count(number: int, what: str) -> str:

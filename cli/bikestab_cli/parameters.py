@@ -82,10 +82,11 @@ def _over(
 def parameter(name: str, text: str) -> float:
     """The value in SI units; InputError for another unit, or for any where there is no such parameter."""
     from bikestab.bicycle import PAPER
+    from bikestab.gains import GAINS
     from bikestab.notation import MEASURED, MEIJAARD
     from bikestab.rider import RIDER
 
-    known = {**PAPER, **MEIJAARD, **MEASURED, **RIDER}
+    known = {**PAPER, **MEIJAARD, **MEASURED, **RIDER, **GAINS}
     try:
         return quantity(text, units_in(known.get(name, "")))
     except InputError:

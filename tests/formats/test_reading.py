@@ -70,7 +70,7 @@ def test_extra_keys_are_told_of_once(load):
         ("yB", 0.01, "0.01 is not what the others say, 0 = 0"),
         ("d3", 0.05, "0.05 is not what the others say, cos(lam) (rF tan(lam) - c) = 0.0320714267"),
         ("d1", 1.0, "1 is not what the others say, cos(lam) (w + c - rR tan(lam)) = 0.95345707"),
-        ("kTdel_phid", -50.0, "-50 is not what the others say, 0 = 0"),
+        ("kTphi_phid", -50.0, "-50 is not what the others say, 0 = 0"),
     ],
 )
 def test_extra_keys_that_contradict(load, key, value, words):
