@@ -34,8 +34,9 @@ def test_values_slopes_and_shifts(degree):
     assert len(derivative) == max(1, degree)
     np.testing.assert_allclose(polynomials.value(derivative, X).ravel(), slopes, rtol=0, atol=1e-11)
     if degree:
-        both = polynomials.value_and_slope(c, X)
-        np.testing.assert_allclose([part.ravel() for part in both], [expected, slopes], rtol=0, atol=1e-11)
+        bends = [p.deriv(2)(at) / 2 for p, at in zip(each(c), x, strict=True)]
+        found = [part.ravel() for part in polynomials.value_and_slopes(c, X)]
+        np.testing.assert_allclose(found, [expected, slopes, bends], rtol=0, atol=1e-11)
     moved = polynomials.value(polynomials.taylor(c, X), np.full(X.shape, 0.3))
     there = [p(at + 0.3) for p, at in zip(each(c), x, strict=True)]
     np.testing.assert_allclose(moved.ravel(), there, rtol=0, atol=1e-11)

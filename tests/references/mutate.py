@@ -62,7 +62,7 @@ def _places(tree):
 def noticed(folder, name):
     """Whether the tests of a module fail in a copy of the repository."""
     tests = [f"tests/{test}" for test in TESTS[name]]
-    environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder}/cli"}
+    environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder}/cli", "PYTHONDONTWRITEBYTECODE": ""}
     limits = functools.partial(resource.setrlimit, resource.RLIMIT_CPU, (SECONDS, SECONDS))
     options = {"cwd": folder, "env": environment, "capture_output": True, "preexec_fn": limits}
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests]
@@ -92,7 +92,8 @@ def main(number=100, seed=0):
     for name in TESTS:
         tried = counts[name, True] + counts[name, False]
         print(f"{name}: {counts[name, True]} of {tried} noticed")
-    print(f"all: {len(every)} mutants, {len(drawn)} tried")
+    used = sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+    print(f"all: {len(every)} mutants, {len(drawn)} tried in {used:.0f} s of processor time")
 
 
 if __name__ == "__main__":
