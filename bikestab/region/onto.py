@@ -5,44 +5,42 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import elementwise
 
 from bikestab.model import Floats
 
 Function = Callable[[Floats], Floats]  # points (2, n) → values (n,)
 ROUNDS = 4  # of Newton's method: from a grid's step to rounding
-_HALVINGS = 60
+_MOST = 200  # steps within a bracket, of which every third halves it
+_CLOSE = 2.0**-53
 
 
 def between(function: Function, low: Floats, high: Floats) -> Floats:
-    """The points (2, n) between low and high (2, n) where a function changes its sign; it may jump there."""
+    """The points (2, n) between low and high (2, n) where a function changes its sign; it may jump there.
 
-    def along(t: Floats, *ends: Floats) -> Floats:
-        a, b = np.array(ends).reshape(2, 2, -1)
-        return function(a + t * (b - a))
-
+    By the Illinois method (Dowell and Jarratt 1971): the bracket's line, with half the value at an end that
+    has stayed. What is no number counts as beyond the change.
+    """
     if not low.shape[1]:
         return low
-    zero, one = np.zeros(low.shape[1]), np.ones(low.shape[1])
-    root = elementwise.find_root(
-        along, (zero, one), args=(*low, *high), tolerances={"xatol": 1e-16, "xrtol": 1e-15}
-    )
-    t = np.array(root.x)
-    poor = ~(root.success & np.isfinite(root.f_x))  # a NaN at one end counts as success
-    if poor.any():
-        a, b = low[:, poor], high[:, poor]
-        t[poor] = _halved(lambda t: function(a + t * (b - a)), zero[poor], one[poor])
-    return low + t * (high - low)
-
-
-def _halved(function: Function, a: Floats, b: Floats) -> Floats:
-    """Where a function changes its sign from a to b, by that alone."""
-    below = np.sign(function(a))
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (a + b)
-        left = np.sign(function(middle)) == below
-        a, b = np.where(left, middle, a), np.where(left, b, middle)
-    return b
+    a, b = np.zeros(low.shape[1]), np.ones(low.shape[1])
+    at_a, at_b = function(low), function(high)
+    last, found = np.full(len(a), 0.5), np.full(len(a), 0.5)
+    busy = np.arange(len(a))
+    for step in range(_MOST):
+        with np.errstate(all="ignore"):
+            t = (a * at_b - b * at_a) / (at_b - at_a) if step % 3 != 2 else 0.5 * (a + b)
+        t = np.where((a < t) & (t < b), t, 0.5 * (a + b))
+        value = function(low[:, busy] + t * (high - low)[:, busy])
+        left = np.sign(value) == np.sign(at_a)
+        at_a, at_b = np.where(left, value, 0.5 * at_a), np.where(left, 0.5 * at_b, value)
+        a, b = np.where(left, t, a), np.where(left, b, t)
+        found[busy] = t
+        on = (value != 0) & (np.abs(t - last) > _CLOSE) & (b - a > _CLOSE)
+        last = t
+        if not on.any():
+            break
+        busy, a, b, at_a, at_b, last = (each[on] for each in (busy, a, b, at_a, at_b, last))
+    return low + found * (high - low)
 
 
 def across(function: Function, points: Floats, along: Floats, most: float, rounds: int = ROUNDS) -> Floats:

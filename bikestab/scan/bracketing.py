@@ -20,6 +20,7 @@ from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, condition, conditions
 from bikestab.scan.agreement import AGREEMENT, Agreement, by_rounding, size_of_terms
 from bikestab.scan.linking import widened
+from bikestab.scan.rootfinder import find_root
 from bikestab.scan.sheets import Roots, Sheets
 from bikestab.scan.tile import Tile
 
@@ -172,12 +173,11 @@ def zeros(name: str, table: Floats, below: Floats, above: Floats) -> Floats:
     NaN where the root finder says that it failed, or ends where the condition is no number: with NaN at one
     end of a bracket it ends in success.
     """
-    from scipy.optimize import elementwise  # takes half a second
 
     def value(V: Floats, bracket: NDArray[np.intp]) -> Floats:
         return condition(table[..., bracket], name, V)
 
     if not len(below):
         return below
-    result = elementwise.find_root(value, (below, above), args=(np.arange(len(below)),))
+    result = find_root()(value, (below, above), args=(np.arange(len(below)),))
     return np.where(result.success & np.isfinite(result.f_x), result.x, np.nan)

@@ -1,0 +1,40 @@
+"""scipy's root finder without the rest: it is scipy's, and leaves no half of it behind."""
+
+import subprocess
+import sys
+
+ALONE = """
+import sys
+from bikestab.scan.rootfinder import find_root
+find = find_root()
+print("scipy.optimize" in sys.modules, "scipy.linalg" in sys.modules)
+result = find(lambda x, a: x**2 - a, (0.0, 4.0), args=([2.0, 9.0],))
+print(bool(result.success.all()), result.x.round(12).tolist())
+from scipy.optimize import brentq, elementwise
+print(find.__code__ == elementwise.find_root.__code__, find_root() is elementwise.find_root)
+"""
+MOVED = """
+import sys
+class Nowhere:
+    def find_spec(self, name, path=None, target=None):
+        if name == "scipy.optimize._elementwise" and not hasattr(sys.modules["scipy.optimize"], "brentq"):
+            raise ImportError(name)
+sys.meta_path.insert(0, Nowhere())
+from bikestab.scan.rootfinder import find_root
+find = find_root()
+from scipy.optimize import elementwise
+print(find is elementwise.find_root)
+"""
+
+
+def output(program):
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    return done.stdout.splitlines(), done.stderr
+
+
+def test_alone():
+    assert output(ALONE) == (["False False", "True [1.414213562373, 3.0]", "True True"], "")
+
+
+def test_where_it_is_elsewhere():
+    assert output(MOVED) == (["True"], "")
