@@ -1,104 +1,110 @@
-"""How long the columns, single designs and `vrange` take, beside those of an earlier build of this program.
+"""How long whole commands take, beside those of an earlier build of this program.
 
-    python benchmarks/against.py /path/to/earlier/python [--source /path/to/earlier/tree] [--pairs 7]
+    python benchmarks/against.py REV                            the rows of benchmarks/README.md
+    python benchmarks/against.py REV COMMAND...                 one command: scan configs/quick.yaml --force
+    python benchmarks/against.py REV --columns                  columns and single designs in one process
+    python benchmarks/against.py REV --now HEAD~1 --pairs 15    of two earlier builds
 
-Both builds run in turn in processes of their own, and the medians of their processor times are compared. The
-earlier build needs no more than numpy; names that it has otherwise are looked up.
+REV and what git has as HEAD are installed in environments of their own, in build/against, and run in turn in
+folders of their own. Compared are the medians of processor times (of all their processes) and of wall times.
 """
 
 from __future__ import annotations
 
 import argparse
-import importlib
 import json
 import os
+import shutil
 import subprocess
-import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
 from statistics import median
-from typing import Any
+from tempfile import TemporaryDirectory
+from time import perf_counter
 
-BOX = (0.0, 0.6, 64), (0.0, 0.15, 128)  # λ [rad] and σ: a tile of a scan
-VRANGE = ["vrange", "--bicycle", "meijaard2007", "--lam", "0.05:0.3:30", "--sigma", "0.05:0.1:30"]
+from builds import HERE, built
 
-
-def measured() -> dict[str, float]:
-    """Processor times of this build: ns per column, and µs per design."""
-    import numpy as np
-
-    from bikestab.bicycle import Bicycle
-
-    model, speeds = importlib.import_module("bikestab.model"), importlib.import_module("bikestab.speeds")
-    intervals_of = getattr(speeds, "intervals_of", None) or speeds.stable_intervals
-    table_of = model.characteristic_table
-    exact_of = getattr(model, "exact_table", table_of)
-    lam, sigma = np.linspace(*BOX[0])[:, np.newaxis], np.linspace(*BOX[1])
-    flat = np.repeat(lam.ravel(), BOX[1][2]), np.tile(sigma, BOX[0][2])
-    np.empty(1 << 21)  # as scans do: glibc keeps what is freed
-    out, number = {}, lam.size * sigma.size
-    for delta in (0.0, 1.0):
-        bicycle = Bicycle.preset("meijaard2007").with_delta(delta)
-        table = table_of(bicycle, lam, sigma)
-        tasks: dict[str, tuple[Callable[[], Any], int]] = {
-            "table": (lambda b=bicycle: table_of(b, lam, sigma), number),
-            "table of pairs": (lambda b=bicycle: table_of(b, *flat), number),
-            "critical": (lambda t=table: speeds.critical(t), number),
-            "intervals": (lambda t=table: intervals_of(t), number),
-            "table and intervals": (lambda b=bicycle: intervals_of(exact_of(b, lam, sigma)), number),
-            "table of one design": (lambda b=bicycle: table_of(b, 0.3, 0.08), 1),
-            "table and intervals of one design": (lambda b=bicycle: intervals_of(exact_of(b, 0.3, 0.08)), 1),
-        }  # fmt: skip
-        for name, (run, many) in tasks.items():
-            best = float("inf")
-            for _ in range(4 if many > 1 else 40):
-                start = time.process_time()
-                run()
-                best = min(best, time.process_time() - start)
-            out[f"δ = {delta:g}: {name}"] = best / many * 1e9
-    return out
+CONFIG = "configs/dikarev1981.yaml"
+SMALL = (
+    "--set grid.lam.num=8 --set grid.sigma.num=8 --set grid.V.num=8 --set slices=[] --set output=out/small"
+)
+DESIGN = "--bicycle meijaard2007 --V 5"
+ROWS = {  # the command, and what has to be there
+    "vrange --bicycle meijaard2007": "",
+    f"scan {CONFIG} --force": "",
+    f"scan {CONFIG} --force {SMALL}": "",
+    "slice out/dikarev1981 --lam 0.2": f"scan {CONFIG} --set slices=[]",
+    "eigen --lam 0.2 --sigma 0.08 -o modes.png": "",
+    f"design {DESIGN}": "",
+    f"design {DESIGN} -o design.png": "",
+    "reproduce --quick": "",
+}
 
 
-def started(python: str, source: str | None) -> dict[str, float]:
-    """The times of one process of a build, and of its ``vrange`` [ns]."""
-    environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed program is compiled only once
-    if source:
-        environment["PYTHONPATH"] = f"{source}:{source}/cli"
-    run = subprocess.run([python, __file__, "--child"], env=environment, check=True, capture_output=True)
-    found: dict[str, float] = json.loads(run.stdout)
-    for words, command in (
-        ("one design", [*VRANGE[:3], "--lam", "0.3", "--sigma", "0.08"]),
-        ("900 designs", VRANGE),
-    ):
-        before = os.times()
-        subprocess.run(
-            [Path(python).with_name("bikestab"), *command], env=environment, check=True, capture_output=True
-        )
-        now = os.times()
-        found[f"vrange, {words}"] = 1e9 * (
-            now.children_user + now.children_system - before.children_user - before.children_system
-        )
-    return found
+def measured(programs: Path, command: str, folder: Path) -> tuple[float, float]:
+    """Seconds of processor time and of wall time of one run."""
+    environment = dict(os.environ)
+    for name in ("PYTHONDONTWRITEBYTECODE", "PYTHONPATH"):  # an installed program is compiled only once
+        environment.pop(name, None)
+    before, start = os.times(), perf_counter()
+    done = subprocess.run(
+        [programs / "bikestab", *command.split()], cwd=folder, env=environment, capture_output=True, text=True
+    )
+    wall, now = perf_counter() - start, os.times()
+    if done.returncode:
+        raise SystemExit(f"bikestab {command}\n{done.stderr}")
+    used = now.children_user + now.children_system - before.children_user - before.children_system
+    return used, wall
+
+
+def compared(command: str, needs: str, builds: tuple[Path, Path], pairs: int) -> str:
+    """A row of the table: both builds' seconds, and how often the first one's hold the second's."""
+    times: list[list[tuple[float, float]]] = [[], []]
+    with TemporaryDirectory() as name:
+        folders = [Path(name, side) for side in ("before", "now")]
+        for folder, programs in zip(folders, builds, strict=True):
+            shutil.copytree(HERE / "configs", folder / "configs")
+            for each in (needs, command):  # the first run finds what is on the disk
+                if each:
+                    measured(programs, each, folder)
+        for _ in range(pairs):
+            for k, (folder, programs) in enumerate(zip(folders, builds, strict=True)):
+                times[k].append(measured(programs, command, folder))
+    old, new = ([median(run[i] for run in runs) for i in (0, 1)] for runs in times)
+    cells = [f"{old[i]:.2f} | {new[i]:.2f} | {old[i] / new[i]:.2f}" for i in (0, 1)]
+    return f"| `{command}` | {' | '.join(cells)} |"
+
+
+def columns(builds: tuple[Path, Path], pairs: int) -> None:
+    """Print what ``calls.py`` measures in both builds."""
+    child = Path(__file__).with_name("calls.py")
+    found: list[list[dict[str, float]]] = [[], []]
+    for _ in range(pairs):
+        for k, programs in enumerate(builds):
+            run = subprocess.run([programs / "python", child], check=True, capture_output=True, cwd="/")
+            found[k].append(json.loads(run.stdout))
+    print(f"{'':48} {'before':>10} {'now':>10} {'ratio':>6}   (ns; medians of {pairs})")
+    for name in found[0][0]:
+        old, new = (median(one[name] for one in runs) for runs in found)
+        print(f"{name:48} {old:10.0f} {new:10.0f} {old / new:6.2f}")
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("python", nargs="?", default=sys.executable)
-    parser.add_argument("--source")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("revision", metavar="REV")
+    parser.add_argument("command", nargs=argparse.REMAINDER, metavar="COMMAND")
+    parser.add_argument("--now", default="HEAD", metavar="REV")
     parser.add_argument("--pairs", type=int, default=7)
-    parser.add_argument("--child", action="store_true")
+    parser.add_argument("--columns", action="store_true")
     asked = parser.parse_args()
-    if asked.child:
-        print(json.dumps(measured()))
+    builds = built(asked.revision), built(asked.now)
+    if asked.columns:
+        columns(builds, asked.pairs)
         return
-    here = str(Path(__file__).parent.parent)
-    pairs = [(started(asked.python, asked.source), started(sys.executable, here)) for _ in range(asked.pairs)]
-    print(f"{'':48} {'before':>10} {'now':>10} {'ratio':>6}   (ns; medians of {asked.pairs})")
-    for name in pairs[0][0]:
-        old, new = (median(pair[i][name] for pair in pairs) for i in (0, 1))
-        print(f"{name:48} {old:10.0f} {new:10.0f} {new / old:6.2f}")
+    rows = {" ".join(asked.command): ""} if asked.command else ROWS
+    print("| command | before: processor [s] | now | ratio | before: wall [s] | now | ratio |")
+    print("|---|---:|---:|---:|---:|---:|---:|")
+    for command, needs in rows.items():
+        print(compared(command, needs, builds, asked.pairs), flush=True)
 
 
 if __name__ == "__main__":

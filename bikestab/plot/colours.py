@@ -16,7 +16,8 @@ GROWTH = LinearSegmentedColormap.from_list(
 )
 
 
-def colour_growth_rate(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats) -> None:
+def colour_growth_rate(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats) -> Axes:
+    """Draw the growth rate; the axes of its colour bar."""
     finite = values[np.isfinite(values)]
     low = max(-float(finite.min(initial=0.0)), 0.01)  # each side has its own scale: decay is the smaller
     high = max(float(finite.max(initial=0.0)), 0.01)
@@ -42,11 +43,14 @@ def colour_growth_rate(figure: Figure, ax: Axes, x: Floats, y: Floats, values: F
     bar.ax.axhline(0, color="k", lw=1.2)
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(y[0], y[-1])
+    return bar.ax
 
 
-def colour_probability(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats, samples: int) -> None:
+def colour_probability(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats, samples: int) -> Axes:
+    """Draw the probability of stability; the axes of its colour bar."""
     image = ax.pcolormesh(x, y, values, vmin=0, vmax=1, cmap="cividis", shading="nearest", rasterized=True)
     bar = figure.colorbar(image, ax=ax)
     bar.set_label(f"probability of stability, {samples} machines")
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(y[0], y[-1])
+    return bar.ax

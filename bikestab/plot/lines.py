@@ -62,10 +62,11 @@ def entry(label: str, *, lw: float = 1.8, **style: Any) -> Line2D:
     return Line2D([], [], label=label, lw=lw, **style)
 
 
-def legend_below(figure: Figure, handles: Sequence[Artist], ncols: int = 3, **style: Any) -> None:
-    """The legend under the axes; none without entries."""
+def legend_below(figure: Figure, handles: Sequence[Artist], ncols: int = 3, **style: Any) -> int:
+    """The legend under the axes, none without entries; how many rows it has."""
     if handles:
         figure.legend(
             handles=list(handles), loc="outside lower center", ncols=ncols, frameon=False,
             **{"handlelength": 3, **style},
         )  # fmt: skip
+    return -(-len(handles) // ncols)

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.model import Floats
+from bikestab.plot.arranged import arrange_region
 from bikestab.plot.axes import LABELS, labels_of, remarks
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import STRAIGHT, legend_below, straight_designs, straight_entry
@@ -49,7 +50,7 @@ def draw_region(subject: Subject) -> Figure:
     labels = labels_of(family)
     quick = _Quick(family.bicycle, family.model, family.x, family.y)
     mesh = region_mesh(quick, box[0], box[1], box[2], cells=_CELLS)
-    figure = Figure(figsize=(7.4, 6.4), layout="constrained")
+    figure = Figure(figsize=(7.4, 6.4))
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     bicycle = family.bicycle
     straight = subject.axes == AXES
@@ -59,10 +60,10 @@ def draw_region(subject: Subject) -> Figure:
     handles = draw_mesh(ax, mesh, box, [labels[name] for name in subject.axes])
     if straight and not np.isnan(sigma).all():
         handles.append(straight_entry("smaller σ"))
-    if handles:
-        legend_below(figure, handles, ncols=2, handlelength=2)
+    rows = legend_below(figure, handles, ncols=2, handlelength=2)
     what = f"{short(bicycle.name)}: stable region{remarks(bicycle, family.model)}"
-    set_title(ax, subject.title, what)
+    set_title(ax, subject.title, what, y=1 / 0.92)  # Axes3D puts it at 0.92 of that
+    arrange_region(figure, ax, rows)
     return figure
 
 

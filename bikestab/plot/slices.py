@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 from bikestab.errors import InputError
 from bikestab.fields import AXES, Axis
 from bikestab.model import Floats
+from bikestab.plot.arranged import arrange_plane, title_place
 from bikestab.plot.axes import SYMBOLS, head_angle, label_family, remarks
 from bikestab.plot.colours import GROWTH, colour_growth_rate, colour_probability
 from bikestab.plot.headings import set_title, short
@@ -23,7 +24,9 @@ from bikestab.routh import conditions, violated
 from bikestab.spectrum import growth_rate_of
 from bikestab.volume import Subject, Volume, check_ranges
 
-_SAMPLES = 401  # per axis, for finding the curves; their points are then moved onto the exact zero
+# per axis, for finding the curves, whose points are then moved onto the exact zero: each value of tilt and
+# trail together needs a table of its own in a plane of one speed
+_SAMPLES, _SAMPLES_OF_DESIGNS = 401, 201
 
 
 @own_settings()
@@ -52,20 +55,20 @@ def draw_slice(
     section = Section(subject.family, fixed, value)
     check_ranges(subject, section.axes, "a picture")
     x, y = (subject.axis(name) for name in section.axes)
-    figure = Figure(figsize=(7.4, 5.2), layout="constrained")
+    figure = Figure(figsize=(7.4, 5.2))
     ax = figure.add_subplot()
     if volume:
-        colour_probability(figure, ax, x, y, _probability(volume, fixed, value), volume.samples)
+        bar = colour_probability(figure, ax, x, y, _probability(volume, fixed, value), volume.samples)
         handles = _edges(ax, section, x, y, "boundary without the spread")
     else:
         growth = growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
-        colour_growth_rate(figure, ax, x, y, growth)
+        bar = colour_growth_rate(figure, ax, x, y, growth)
         handles = _stable_region(ax, section, x, y)
     if subject.axes == AXES and fixed == "V" and handles:
         ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
         handles += straight_fork(ax, subject.family.bicycle)
-    legend_below(figure, handles)
     _decorate(ax, subject, section)
+    arrange_plane(figure, ax, bar, legend_below(figure, handles))
     return figure
 
 
@@ -84,9 +87,9 @@ def _probability(volume: Volume, fixed: Axis, value: float) -> Floats:
 
 def _stable_region(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Any]:
     """Dots where motion is stable, and its boundary; what the legend says of them."""
-    X, Y = np.linspace(x[0], x[-1], _SAMPLES), np.linspace(y[0], y[-1], _SAMPLES)
+    X, Y = _samples(section, x, y)
     table, V = section.table_and_speed(X[np.newaxis, :], Y[:, np.newaxis])
-    inside = np.broadcast_to(violated(conditions(table, V)) == 0, (_SAMPLES, _SAMPLES))
+    inside = np.broadcast_to(violated(conditions(table, V)) == 0, (len(Y), len(X)))
     handles: list[Any] = []
     if inside.any():
         dots = ax.contourf(X, Y, inside, levels=[0.5, 1.5], colors="none", hatches=[".."])
@@ -102,11 +105,15 @@ def _stable_region(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Any
     return handles
 
 
+def _samples(section: Section, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    number = _SAMPLES_OF_DESIGNS if section.fixed == "V" else _SAMPLES
+    return np.linspace(x[0], x[-1], number), np.linspace(y[0], y[-1], number)
+
+
 def _edges(ax: Axes, section: Section, x: Floats, y: Floats, word: str = "boundary") -> list[Line2D]:
     """Draw the boundary curves; what the legend says of them."""
     handles = []
-    X, Y = np.linspace(x[0], x[-1], _SAMPLES), np.linspace(y[0], y[-1], _SAMPLES)
-    for name, curves in edge_curves(section, list(EDGES), X, Y).items():
+    for name, curves in edge_curves(section, list(EDGES), *_samples(section, x, y)).items():
         label, style = EDGES[name]
         if curves:
             draw_on_white(ax, curves, lw=1.8, color="black", ls=style)
@@ -124,4 +131,4 @@ def _decorate(ax: Axes, subject: Subject, section: Section) -> None:
     if subject.axes == AXES:
         where["sigma"] += f" (trail {value * bicycle.c:.4g} m)"
     what = f"{short(bicycle.name)}: {where[section.fixed]}{remarks(bicycle, family.model)}"
-    set_title(ax, subject.title, what)
+    set_title(ax, subject.title, what, **title_place(ax))
