@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from hashlib import sha256
 from typing import Any
 
 import numpy as np
@@ -23,18 +24,23 @@ from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.stability import eigenvalues
 
 MOST_TOLERANCES = 2  # the number of Bernstein coefficients grows by a factor of about 5 with each
+BERNSTEIN = "Bernstein coefficients in tan(λ/2), σ, V or V² and what is varied"
 _PARTS = 4  # that a tolerance is divided into, at most
 
 
 @dataclass(frozen=True)
 class Proof:
-    """A box of λ [rad], σ, V [m/s] and parameters ``varied``, cut by ``edges``, and what each cell is."""
+    """A box of λ [rad], σ, V [m/s] and parameters ``varied``, cut by ``edges``, and what each cell is.
+
+    ``method`` says how it was proved: by Bernstein coefficients, or by a centred form.
+    """
 
     bicycle: Bicycle
     model: Model
     varied: tuple[str, ...]
     edges: tuple[Floats, ...]
     decided: Decided
+    method: str
 
     @cached_property
     def cells(self) -> NDArray[np.uint8]:
@@ -111,25 +117,25 @@ class Proof:
         bicycle, decided = self.bicycle, self.decided
         own = bicycle.bodies or {name: getattr(bicycle, name) for name in PARAMETERS}
         proved = decided.verdicts != UNDECIDED
-        return json.dumps(
-            {
-                "format": "bikestab certificate 1",
-                "version": version,
-                "method": "signs of Bernstein coefficients in tan(λ/2), σ, V or V² and what is varied",
-                "model": self.model,
-                "notation": "four bodies" if bicycle.bodies else "two parts",
-                "machine": {name: float(value).hex() for name, value in own.items()},
-                "varied": self.varied,
-                "edges": [[float(x).hex() for x in edges] for edges in self.edges],
-                "blocks": [
-                    [block, verdict]
-                    for block, verdict in zip(
-                        decided.blocks[proved].tolist(), decided.verdicts[proved].tolist(), strict=True
-                    )
-                ],
-            },
-            ensure_ascii=False,
-        )
+        told = {
+            "format": "bikestab certificate 2",
+            "version": version,
+            "method": self.method,
+            "model": self.model,
+            "notation": "four bodies" if bicycle.bodies else "two parts",
+            "machine": {name: float(value).hex() for name, value in own.items()},
+            "varied": list(self.varied),
+            "edges": [[float(x).hex() for x in edges] for edges in self.edges],
+            "blocks": [
+                [block, verdict]
+                for block, verdict in zip(
+                    decided.blocks[proved].tolist(), decided.verdicts[proved].tolist(), strict=True
+                )
+            ],
+            "sha256": "",
+        }
+        told["sha256"] = sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
+        return json.dumps(told)
 
 
 def prove(
@@ -171,6 +177,5 @@ def prove(
     ]
     grid = grid_of([lam, sigma, V, *others])
     conditions = condition_formulas(table_formulas(bicycle, tuple(ranges), model=model))
-    return Proof(
-        bicycle, model, tuple(ranges), grid.edges, search(Prover(conditions, grid), progress=progress)
-    )
+    decided = search(Prover(conditions, grid), progress=progress)
+    return Proof(bicycle, model, tuple(ranges), grid.edges, decided, BERNSTEIN)

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 MOST_CELLS = 512
 MOST_BYTES = 50_000_000  # of a certificate, whose check would take weeks
-LONG = 20  # blocks; their check is announced
+LONG = 200  # blocks; their check is announced
 
 
 @click.command("certify")
@@ -102,7 +102,7 @@ def command(
       bikestab certify --verify proof.json
     """
     if verify:
-        _verify(verify)
+        _verify(verify, quiet)
         return
     from bikestab import __version__
     from bikestab.certify.proof import prove
@@ -229,19 +229,23 @@ def _words(proof: Proof) -> str:
     return "\n".join(lines)
 
 
-def _verify(name: str) -> None:
+def _verify(name: str, quiet: bool) -> None:
+    from math import prod
+
     from bikestab.certify.checker import Refuted, check
     from bikestab.texts import read_text
 
     text = read_text(name, MOST_BYTES)
     try:
         certificate = json.loads(text)
-        if certificate["format"] != "bikestab certificate 1":
+        if certificate["format"] != "bikestab certificate 2":
             raise ValueError
-        number = len(certificate["blocks"])
+        number, cells = len(certificate["blocks"]), prod(len(axis) - 1 for axis in certificate["edges"])
         if number > LONG:
-            click.echo(f"note: {name}: {number} blocks, 0.2 to 2 s each", err=True)
-        click.echo(f"{name}: {check(certificate)}")
+            click.echo(f"note: {name}: {number} blocks, 0.05 to 5 s each", err=True)
+        with progress("verify", quiet) as show:
+            told = check(certificate, lambda done: show(done, cells))
+        click.echo(f"{name}: {told}")
     except Refuted as error:
         click.echo(f"{name}: {error}", err=True)
         click.get_current_context().exit(1)

@@ -91,9 +91,8 @@ def test_a_certificate_is_written_and_checked(bikestab, tmp_path):
     path.write_text(text.replace((4.8).hex(), (2.0).hex()), "utf-8")
     code, out, err = bikestab("certify", "--verify", path)
     assert (code, out) == (1, "")
-    assert "not proved" in err
-    without = text.replace("], 1]]", "]]]"), text.replace("blocks", "block")
-    for no_certificate in ("{}", "[" * 10**5, *without):
+    assert "was changed" in err
+    for no_certificate in ("{}", "[" * 10**5, text.replace("blocks", "block")):
         assert no_certificate != text
         path.write_text(no_certificate, "utf-8")
         code, out, err = bikestab("certify", "--verify", path)
