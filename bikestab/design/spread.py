@@ -24,6 +24,7 @@ from bikestab.speeds import intervals_of
 SAMPLES = 20_000
 SHARE = 0.90  # of the machines that have such an end lie between ``low`` and ``high``
 _STEEPEST = 1.5  # rad; the equations know no tilt beyond
+_TILTS = ("lam", "head_angle")
 _AGREE = 0.1  # of the standard deviation
 _CERTAIN = 0.999  # share of machines that are stable somewhere, above which the others do not count
 
@@ -104,13 +105,13 @@ def own_spread(found: Sensitivity, *, of_file: bool, given: Mapping[str, float])
     """The spread by the deviations of the bicycle's file, if they are asked for, and by those ``given``.
 
     None where there are none. Correlations are those of the file. One that is given stands in place of the
-    file's: of the trail, under any of its names.
+    file's: of the trail or of the tilt, under any of its names.
     """
     bicycle = found.bicycle
     known = {name: sd for name, sd in bicycle.deviations.items() if sd > 0} if of_file else {}
-    trails = _trails(bicycle)
-    if any(name in trails for name in given):
-        known = {name: sd for name, sd in known.items() if name not in trails}
+    for names in (_trails(bicycle), _TILTS):
+        if any(name in names for name in given):
+            known = {name: sd for name, sd in known.items() if name not in names}
     deviations = {**known, **given}
     return spread(found, deviations, bicycle.correlations) if deviations else None
 
@@ -125,7 +126,7 @@ def plain(result: Spread) -> dict[str, Any]:
 
 
 def _check(found: Sensitivity, deviations: Mapping[str, float]) -> None:
-    known = [name for name in found.values if name not in ("head_angle", "offset")]
+    known = list(found.values)
     for name, deviation in deviations.items():
         if name not in known:
             raise InputError(f"there is no parameter {name!r}", key=("sd",), hint=nearest(name, known))
@@ -133,22 +134,23 @@ def _check(found: Sensitivity, deviations: Mapping[str, float]) -> None:
             hint = "allowed: 0 and above"
             problem = f"{name}={deviation:g} is no standard deviation"
             raise InputError(problem, key=("sd",), hint=hint)
-    trails = [name for name in deviations if name in _trails(found.bicycle)]
-    if len(trails) > 1:
-        problem = f"{trails[0]} and {trails[1]} are both the trail"
-        raise InputError(problem, key=("sd",), hint="give one of them")
+    for names, what in ((_trails(found.bicycle), "trail"), (_TILTS, "tilt")):
+        both = [name for name in deviations if name in names]
+        if len(both) > 1:
+            problem = f"{both[0]} and {both[1]} are both the {what}"
+            raise InputError(problem, key=("sd",), hint="give one of them")
     if not deviations:
         raise InputError("no standard deviation is given", key=("sd",), hint="for example mB=1.5")
 
 
 def _trails(bicycle: Bicycle) -> tuple[str, ...]:
-    return ("sigma", "trail", "c") if bicycle.bodies is not None else ("sigma", "trail")
+    return ("sigma", "trail", "offset", *(("c",) if bicycle.bodies is not None else ()))
 
 
 def _sampled(found: Sensitivity, draws: Mapping[str, Floats]) -> tuple[Floats, Floats, int]:
     """The ends (sample,) of each machine's widest interval, NaN without one; and how many are no machine."""
     bicycle = found.bicycle
-    front = {"lam", *_trails(bicycle)}
+    front = {*_TILTS, *_trails(bicycle)}
     others = {name: values for name, values in draws.items() if name not in front}
     number = len(next(iter(draws.values())))
     machines, good = Machines.tried(bicycle, others or {"g": np.full(number, bicycle.g)})
@@ -169,7 +171,10 @@ def _designs(found: Sensitivity, draws: Mapping[str, Floats], machines: Machines
     """Tilt and σ (sample,) of drawn machines: what is held stays, and the trail itself may vary."""
     number = machines.number
     c, R2 = (np.broadcast_to(x, (number, 1))[:, 0] for x in (machines.c, machines.R2))
-    lam = np.broadcast_to(draws.get("lam", np.array(found.lam)), number)
+    lam = draws.get("lam", np.array(found.lam))
+    if "head_angle" in draws:
+        lam = lam + (found.values["head_angle"] - draws["head_angle"])
+    lam = np.broadcast_to(lam, number)
     with np.errstate(all="ignore"):
         if found.hold == "offset":
             sigma = (R2 * np.sin(lam) - found.values["offset"]) / (c * np.cos(lam))
@@ -177,7 +182,8 @@ def _designs(found: Sensitivity, draws: Mapping[str, Floats], machines: Machines
             sigma = found.values["trail"] / c if found.hold == "trail" else np.full(number, found.sigma)
         for name in _trails(found.bicycle):
             if name in draws:
-                sigma = sigma + (draws[name] - found.values[name]) / (1 if name == "sigma" else c)
+                by = {"sigma": np.array(1.0), "offset": -c * np.cos(lam)}.get(name, c)
+                sigma = sigma + (draws[name] - found.values[name]) / by
     return lam, sigma
 
 

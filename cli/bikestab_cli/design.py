@@ -135,8 +135,7 @@ def command(
       bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5
       bikestab design --bicycle meijaard2007 --set mB=60,110 --V 5 -o fronts.png
       bikestab design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm -o loads.png
-      bikestab design --bicycle meijaard2007 --free lam=0.1:0.5 --free trail=2cm:15cm --free xB=0.2:0.4
-          --stable 4.6:5.4 --sd lam=0.5deg --sd trail=5mm --sd xB=1cm
+      bikestab design --bicycle meijaard2007 --free trail=2cm:15cm --stable 5:5.4 --sd mB=3
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
     from bikestab_cli.design_words import told, told_all

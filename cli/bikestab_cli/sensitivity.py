@@ -13,6 +13,7 @@ from bikestab_cli.options import (
     check_files,
     json_option,
     sd_option,
+    tell_once,
     tell_which,
     told_as_options,
 )
@@ -81,6 +82,7 @@ def command(
     from bikestab.design.sensitivity import sensitivity, two_parts
     from bikestab.design.spread import own_spread, plain
     from bikestab.export.tables import SENSITIVITY, of_machines, save_csv, sensitivity_blocks
+    from bikestab.plausible import deviation_doubts
 
     machines = machines_chosen(bicycle_name, delta, changes)
     bicycles = [each.bicycle for each in machines]
@@ -95,6 +97,8 @@ def command(
         ]
     for bicycle in bicycles:
         tell_which(bicycle, deviations[1])
+        for text in deviation_doubts(bicycle, deviations[1]):
+            tell_once(f"warning: {bicycle.name}: {text}")
     with told_as_options():
         spreads = [own_spread(each, of_file=True, given=deviations[1]) for each in found]
     records = [

@@ -50,6 +50,10 @@ def figures() -> Iterator[tuple[str, Figure]]:
     dikarev = Bicycle.preset("dikarev1981")
     wanted = Wanted(Family(dikarev))
     yield "design.png", draw_designs(wanted, best_designs(wanted), trace(wanted.family, wanted.x, wanted.y))
+    loads = load_config(CONFIGS / "loads.yaml")
+    ends = (loads.grid.ends(name) for name in loads.grid.names[:2])
+    wanted = Wanted(loads.family(), *ends, V_max=12)
+    yield "loads.png", draw_designs(wanted, best_designs(wanted), trace(wanted.family, wanted.x, wanted.y))
     yield "figure3.png", draw_sections(dikarev, 401)
 
 

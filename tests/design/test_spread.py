@@ -66,6 +66,21 @@ def test_small_deviations_follow_the_linear_rule():
         assert end["median"] == pytest.approx(end["own"], abs=5 * end["linear"] / math.sqrt(20_000))
 
 
+def test_head_angle_and_offset_are_uncertain_too():
+    """By the linear rule as a tilt and a trail are; a head angle spreads as the tilt does."""
+    found = sensitivity(BENCHMARK)
+    by_tilt, by_angle = (spread(found, {name: 0.002}) for name in ("lam", "head_angle"))
+    assert by_angle["V1"]["linear"] == pytest.approx(by_tilt["V1"]["linear"], rel=1e-12)
+    assert by_angle["V1"]["sampled"] == pytest.approx(by_tilt["V1"]["sampled"], rel=0.03)
+    cos = math.cos(BENCHMARK.lam)
+    by_offset, by_trail = spread(found, {"offset": 0.0005 * cos}), spread(found, {"c": 0.0005})
+    assert by_offset["V2"]["linear"] == pytest.approx(by_trail["V2"]["linear"], rel=1e-12)
+    assert by_offset["V2"]["sampled"] == pytest.approx(by_offset["V2"]["linear"], rel=0.03)
+    for both, what in (({"lam": 0.1, "head_angle": 0.1}, "tilt"), ({"c": 0.1, "offset": 0.1}, "trail")):
+        with pytest.raises(InputError, match=f"are both the {what}"):
+            spread(found, both)
+
+
 @pytest.mark.parametrize("r", [1.0, -1.0])
 def test_parameters_of_one_measurement(r):
     """A correlation of ±1: the draws are one line, and the linear rule is that of the sum."""
