@@ -12,7 +12,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.machines import Machines
 
 _DESIGNS = 1 << 15  # at a time: a table of 10⁶ designs would take 160 MB
-_NAMES = [name for name in Machines.__dataclass_fields__ if name not in ("shape", "bodies", "parts")]
+_NAMES = [name for name, field in Machines.__dataclass_fields__.items() if field.type == "Any"]  # numbers
 
 
 def together(bicycles: Sequence[Bicycle]) -> Machines:

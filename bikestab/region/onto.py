@@ -10,7 +10,8 @@ from bikestab.model import Floats
 
 Function = Callable[[Floats], Floats]  # points (2, n) → values (n,)
 ROUNDS = 4  # of Newton's method: from a grid's step to rounding
-_MOST = 200  # steps within a bracket, of which every third halves it
+_STEPS = 15  # within a bracket, which is enough but where a function jumps
+_SECTIONS = 16  # into which what is left of a bracket is cut at a time
 _CLOSE = 2.0**-53
 
 
@@ -26,7 +27,7 @@ def between(function: Function, low: Floats, high: Floats) -> Floats:
     at_a, at_b = function(low), function(high)
     last, found = np.full(len(a), 0.5), np.full(len(a), 0.5)
     busy = np.arange(len(a))
-    for step in range(_MOST):
+    for step in range(_STEPS):
         with np.errstate(all="ignore"):
             t = (a * at_b - b * at_a) / (at_b - at_a) if step % 3 != 2 else 0.5 * (a + b)
         t = np.where((a < t) & (t < b), t, 0.5 * (a + b))
@@ -36,11 +37,28 @@ def between(function: Function, low: Floats, high: Floats) -> Floats:
         a, b = np.where(left, t, a), np.where(left, b, t)
         found[busy] = t
         on = (value != 0) & (np.abs(t - last) > _CLOSE) & (b - a > _CLOSE)
-        last = t
-        if not on.any():
+        busy, a, b, at_a, at_b, last = (each[on] for each in (busy, a, b, at_a, at_b, t))
+        if not len(busy):
             break
-        busy, a, b, at_a, at_b, last = (each[on] for each in (busy, a, b, at_a, at_b, last))
+    else:
+        found[busy] = _cut(function, low[:, busy], high[:, busy], a, b, np.sign(at_a))
     return low + found * (high - low)
+
+
+def _cut(function: Function, low: Floats, high: Floats, a: Floats, b: Floats, sign: Floats) -> Floats:
+    """Where, of the way from low to high, a function loses its sign between a and b (n,), by that alone."""
+    places = np.arange(1, _SECTIONS) / _SECTIONS
+    each = np.arange(len(a))
+    while (b - a > _CLOSE).any():
+        t = a[:, np.newaxis] + (b - a)[:, np.newaxis] * places
+        points = low[..., np.newaxis] + t * (high - low)[..., np.newaxis]
+        left = np.sign(function(points.reshape(2, -1)).reshape(t.shape)) == sign[:, np.newaxis]
+        ends = np.column_stack([a, t, b])
+        first = np.argmin(np.column_stack([left, np.zeros(len(a), bool)]), axis=1)
+        a, b = ends[each, first], ends[each, first + 1]
+        if not (places[0] * (b - a) > np.spacing(a)).any():
+            break
+    return b
 
 
 def across(function: Function, points: Floats, along: Floats, most: float, rounds: int = ROUNDS) -> Floats:

@@ -10,6 +10,7 @@ from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.region.curves import NAMES, trace
 from bikestab.region.lines import stable_ranges
+from bikestab.region.onto import between
 from bikestab.speeds import intervals_of
 from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
 from tests.strategies import machines
@@ -189,3 +190,20 @@ def test_random_machines(machine):
                     for k in np.flatnonzero((c.y[:-1] - sigma) * (c.y[1:] - sigma) <= 0)
                 ]
                 assert min(i, default=np.inf) < 0.02
+
+
+def test_zeros_and_jumps_within_brackets():
+    """Roots of cubics, known from their factors, flat ones, and a jump, each in a bracket of its own."""
+    root = np.array([0.1, 0.5, 0.9, 1 / 3, 0.25, 0.7])
+
+    def function(points):
+        x, row = points
+        r = root[row.astype(int)]
+        smooth = (x - r) * (1 + x**2)
+        return np.select([row == 3, row == 4], [(x - r) ** 3, np.where(x < r, -1.0, 2.0)], smooth)
+
+    rows = np.arange(6.0)
+    found = between(function, np.array([np.zeros(6), rows]), np.array([np.ones(6), rows]))
+    np.testing.assert_array_equal(found[1], rows)
+    np.testing.assert_allclose(found[0][[0, 1, 2, 4, 5]], root[[0, 1, 2, 4, 5]], atol=2e-16, rtol=0)
+    assert found[0][3] == pytest.approx(root[3], abs=1e-5)  # its cube is 1e-15 there
