@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bikestab.family import Family
     from bikestab.modes import Modes
     from bikestab.region.curves import Curve
+    from bikestab.region.points import Point
     from bikestab.volume import Volume
 
 Indices = NDArray[np.intp]
@@ -114,8 +115,11 @@ def quantile_blocks(volume: Volume) -> Iterator[Block]:
         }  # fmt: skip
 
 
-def skeleton_blocks(curves: Sequence[Curve], family: Family) -> Iterator[Block]:
-    """The rows of SKELETON: one per point of a curve traced in the designs of a family."""
+def skeleton_blocks(curves: Sequence[Curve], family: Family, points: Sequence[Point] = ()) -> Iterator[Block]:
+    """The rows of SKELETON: one per point of a curve traced in the designs of a family.
+
+    Behind them those of ``points`` where curves meet or end, as of curve 0, with these curves as ``start``.
+    """
     for number, curve in enumerate(curves, 1):
         n = len(curve.x)
 
@@ -126,6 +130,16 @@ def skeleton_blocks(curves: Sequence[Curve], family: Family) -> Iterator[Block]:
             "curve": np.full(n, number, np.int32), "name": column(curve.name), "closes": column(curve.closes),
             "point": np.arange(1, n + 1, dtype=np.int32), **_designs(curve.x, curve.y, family),
             "V": curve.V, "start": column(curve.ends[0]), "end": column(curve.ends[1]),
+        }  # fmt: skip
+
+    if points:
+        x, y, V = (np.array([getattr(point, name) for point in points]) for name in ("x", "y", "V"))
+        n = len(points)
+        yield {
+            "curve": np.zeros(n, np.int32), "name": np.array([point.name for point in points], object),
+            "closes": np.zeros(n, bool), "point": np.arange(1, n + 1, dtype=np.int32),
+            **_designs(x, y, family), "V": V,
+            "start": np.array([", ".join(point.curves) for point in points], object), "end": np.full(n, ""),
         }  # fmt: skip
 
 

@@ -26,6 +26,7 @@ from bikestab.export.tables import (
 )
 from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import Mesh, region_mesh
+from bikestab.region.points import Point, points_of
 from bikestab.volume import Volume, check_ranges
 
 Paths = Iterable[str | Path]
@@ -89,8 +90,8 @@ def _save(
         save_table({**names, **own}, rows, Path(path), about(volume))
 
 
-def export_skeleton(volume: Volume, paths: Paths) -> list[Curve]:
-    """Write the curves where intervals appear, vanish or get another end; what was written.
+def export_skeleton(volume: Volume, paths: Paths) -> tuple[list[Curve], list[Point]]:
+    """Write the curves where intervals appear, vanish or get another end, and where these meet or end.
 
     They are traced through the volume's plane of designs, and at all speeds, since two of them are at
     infinite ones. Raises as ``save_table``.
@@ -99,9 +100,11 @@ def export_skeleton(volume: Volume, paths: Paths) -> list[Curve]:
     x, y, _ = _box(volume)
     family = volume.family
     curves = trace(family, x, y)
+    points = points_of(family, curves, x, y)
     for path in paths:
-        save_table(columns(SKELETON, family), skeleton_blocks(curves, family), Path(path), about(volume))
-    return curves
+        rows = skeleton_blocks(curves, family, points)
+        save_table(columns(SKELETON, family), rows, Path(path), about(volume))
+    return curves, points
 
 
 def export_mesh(

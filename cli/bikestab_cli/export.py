@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -83,6 +84,10 @@ def command(
     The mesh is computed anew in the volume's box, whatever its grid: every vertex lies on the surface to
     rounding, and it has no holes. The factors of its axes are told, and stand in the file.
 
+    The skeleton is the curves where intervals appear, vanish or get another end, and behind them, as curve 0,
+    the points where they meet or end: double zero, triple zero, zero-Hopf, double Hopf, cusp of the fold,
+    ends at infinity.
+
     Formats .vtp, .vtu and .parquet need the extra: pip install "bikestab[export]".
 
     \b
@@ -116,9 +121,12 @@ def command(
         if quantiles:
             _echo(quantiles, count(export_quantiles(opened, quantiles), "row"))
         if skeleton:
-            curves = export_skeleton(opened, skeleton)
+            curves, special = export_skeleton(opened, skeleton)
             points = sum(len(curve.x) for curve in curves)
-            _echo(skeleton, f"{count(len(curves), 'curve')} of {count(points, 'point')}")
+            words = f"{count(len(curves), 'curve')} of {count(points, 'point')}"
+            kinds = Counter(point.name for point in special)
+            shown = ", ".join(f"{number} {name}" for name, number in kinds.items())
+            _echo(skeleton, words + (f"; where they meet or end: {shown}" if shown else ""))
         if meshes:
             mesh, factors = export_mesh(opened, meshes, cells=cells, scale=scale)
             if len(mesh.triangles):

@@ -76,10 +76,14 @@ def test_all_at_once(bikestab, volumes, tmp_path, name):
     words = f"{without} of 16 designs have no stable speed and no row"
     assert lines["i.csv"] == f"{len(rows)} intervals; {words}"
     table = parquet.read_table("s.parquet")
-    names = dict(zip(table["curve"].to_pylist(), table["name"].to_pylist(), strict=True))
+    named = list(zip(table["curve"].to_pylist(), table["name"].to_pylist(), strict=True))
+    names = {curve: name for curve, name in named if curve}
+    ends = [name for curve, name in named if not curve]
     infinite = {"1981": ["capsize at infinity"], "2007": []}[name]  # told whatever the volume's last speed
     assert list(names.values()) == ["weave meets capsize", *infinite]
-    assert lines["s.parquet"] == f"{len(names)} curve{'s' * len(infinite)} of {table.num_rows} points"
+    told = f"{len(names)} curve{'s' * len(infinite)} of {table.num_rows - len(ends)} points"
+    assert lines["s.parquet"].partition("; where they meet or end: ")[0] == told
+    assert ("; where they meet or end: " in lines["s.parquet"]) == bool(ends)
 
 
 def test_intervals_are_those_of_vrange(bikestab, volumes):
@@ -133,7 +137,7 @@ def test_a_box_without_stable_design(bikestab, volumes, tmp_path):
 
 
 def test_nothing_wanted(bikestab, volumes):
-    mistake(bikestab("export", volumes["1981"]), "give --mesh, --intervals or --skeleton")
+    mistake(bikestab("export", volumes["1981"]), "give --mesh, --intervals, --skeleton or --quantiles")
 
 
 @pytest.mark.parametrize(

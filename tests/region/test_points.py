@@ -1,0 +1,85 @@
+"""The points where the skeleton's curves meet or end: in 40 digits, with the eigenvalues of their names."""
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+import bikestab as bs
+from bikestab.family import Family
+from bikestab.region.curves import trace
+from bikestab.region.points import WITHIN, points_of
+from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
+from tests.region.test_curves import derivative
+
+BOX = (0.0, 0.6), (-0.1, 0.3)
+MACHINES = {
+    "1981": (bs.Bicycle.preset("dikarev1981"), PAPER),
+    "2007": (bs.Bicycle.preset("meijaard2007"), BENCHMARK),
+}
+
+
+@pytest.fixture(scope="module")
+def found():
+    result = {}
+    for name, (bicycle, _) in MACHINES.items():
+        for delta in (0.0, 1.0):
+            family = Family(bicycle.with_delta(delta))
+            result[name, delta] = points_of(family, trace(family, *BOX), *BOX)
+    return result
+
+
+def test_their_names(found):
+    assert {key: sorted(point.name for point in points) for key, points in found.items()} == {
+        ("1981", 0.0): ["double zero", "ends at infinity", "ends at infinity", "triple zero"],
+        ("1981", 1.0): ["double zero", "ends at infinity", "triple zero", "triple zero", "zero-Hopf"],
+        ("2007", 0.0): ["triple zero"],
+        ("2007", 1.0): ["triple zero", "zero-Hopf"],
+    }
+    assert found["1981", 1.0][0].curves == ("fold", "weave meets capsize")
+
+
+@pytest.mark.parametrize("which", [("1981", 0.0), ("1981", 1.0), ("2007", 0.0), ("2007", 1.0)], ids=str)
+def test_eigenvalues_are_what_the_names_say(found, which):
+    """Of each three eigenvalues that meet at zero rounding moves each by its cube root."""
+    bicycle = MACHINES[which[0]][0].with_delta(which[1])
+    for point in found[which]:
+        if not np.isfinite(point.V):
+            continue
+        s = bs.eigenvalues(bicycle, point.V, point.x, point.y)
+        zero, axis = np.abs(s) < 1e-4, (np.abs(s.real) < 1e-6) & (np.abs(s.imag) > 0.1)
+        expected = {"double zero": (2, 0), "triple zero": (3, 0), "zero-Hopf": (1, 2)}[point.name]
+        assert (zero.sum(), axis.sum()) == expected, point
+
+
+def equations(machine, delta, point):
+    """The conditions that vanish together at a point, in 40 digits."""
+    names = WITHIN.get(point.name)
+
+    def within(lam, sigma, V):
+        table = polynomial(machine, lam, sigma, delta, "refined")
+        h = condition_polynomials(table)["hurwitz3"]
+        p = {f"p{k}": at({j: x for (i, j), x in table.items() if i == k}, V) for k in range(5)}
+        own = {**p, "q": p["p2"] * p["p3"] - p["p4"] * p["p1"], "h": at(h, V), "h'": at(derivative(h), V)}
+        return [own[name] for name in names]
+
+    def at_infinity(lam, sigma):
+        poly = condition_polynomials(polynomial(machine, lam, sigma, delta, "refined"))
+        h, p0 = (poly[name] for name in ("hurwitz3", "p0"))
+        powers = sorted(j for j, x in h.items() if x.value)  # without damping every other one
+        other = p0[max(p0)] if "capsize at infinity" in point.curves else h[powers[-2]]
+        return [h[max(h)].value, other.value]
+
+    return within if names else at_infinity
+
+
+@pytest.mark.parametrize("which", [("1981", 0.0), ("1981", 1.0), ("2007", 0.0), ("2007", 1.0)], ids=str)
+def test_places_in_40_digits(found, which):
+    machine = MACHINES[which[0]][1]
+    for point in found[which]:
+        with mp.workdps(40):
+            start = [mpf(point.x), mpf(point.y)] + ([mpf(point.V)] if np.isfinite(point.V) else [])
+            exact = mp.findroot(
+                equations(machine, which[1], point), start, tol=1e-25, verify=False, maxsteps=15
+            )
+            away = [abs(a - b) for a, b in zip(exact, start, strict=True)]
+        assert max(away) < 1e-10, (point, [float(x) for x in away])
