@@ -6,7 +6,7 @@ store it, the schema and ``bikestab info`` list it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -20,6 +20,7 @@ from bikestab.routh import CONDITIONS, condition
 Axis = str
 Axes = tuple[Axis, Axis, Axis]
 AXES: Axes = ("lam", "sigma", "V")  # where the grid has no other parameters than tilt and trail
+GRADIENTS = "dV1"  # the word that asks for those of V1 and V2
 COORDINATES: dict[Axis, tuple[str, str]] = {  # unit, meaning
     "lam": ("rad", "tilt of the steering axis from the vertical, top backwards"),
     "sigma": ("1", "trail divided by the wheelbase"),
@@ -124,5 +125,10 @@ FIELDS: dict[str, Field] = {field.name: field for field in _RECORDS}  # in the o
 
 
 def askable() -> list[str]:
-    """The words with which a config may ask for fields."""
-    return list(dict.fromkeys(field.asked for field in FIELDS.values() if field.asked))
+    """The words with which a config may ask for fields, and for the gradients of V1 and V2."""
+    return [*dict.fromkeys(field.asked for field in FIELDS.values() if field.asked), GRADIENTS]
+
+
+def gradient_names(axes: Sequence[Axis]) -> list[str]:
+    """The datasets of the gradients of V1 and V2 over a grid's two parameters."""
+    return [f"d{end}_d{name}" for end in ("V1", "V2") for name in axes[:2]]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import PAPER, Bicycle
 from bikestab.errors import InputError
-from bikestab.fields import AXES, FIELDS, Axes
+from bikestab.fields import AXES, FIELDS, Axes, gradient_names
 from bikestab.gains import GAINS
 from bikestab.hdf5 import text_of
 from bikestab.kinds import KINDS, REASONS, UNBOUNDED
@@ -37,7 +37,7 @@ LARGEST |= {field.name: (1 << len(field.masks)) - 1 for field in FIELDS.values()
 
 
 def expected(
-    fields: list[str], ensemble: bool, bounds: bool, axes: Axes = AXES
+    fields: list[str], ensemble: bool, bounds: bool, axes: Axes = AXES, gradients: bool = False
 ) -> Iterator[tuple[str, tuple[str, ...], type]]:
     """The datasets of a volume that are no coordinates: name, axes behind those of the sweep, type.
 
@@ -54,6 +54,8 @@ def expected(
     for name in CONDITIONS:
         yield f"boundary/{name}", (x, y, "root"), np.float64
         yield f"boundary/{name}_edge", (x, y, "root"), np.uint8
+    if gradients:
+        yield from ((name, (x, y, "interval"), np.float64) for name in gradient_names(axes))
     if ensemble:
         yield from ((f"{name}_quantiles", (x, y, "quantile"), np.float64) for name in ("V1", "V2"))
         for name in ("probability_somewhere", "probability_unbounded"):

@@ -17,7 +17,7 @@ TILT = {"lam": "steering-axis tilt [rad]", "head_angle": "head angle, 90° − t
 TRAIL = {"sigma": "trail divided by the wheelbase [1]", "trail": "trail along the ground [m]"}
 OFFSET = {"offset": "fork offset, of the front axle ahead of the steering axis [m]"}
 FRONT = {**TILT, **TRAIL, **OFFSET}
-_SYMBOLS = {"lam": "λ", "sigma": "σ", "delta": "δ"}
+_SYMBOLS = {"lam": "λ", "sigma": "σ", "delta": "δ", "offset": "b"}
 
 
 class Parameter(NamedTuple):

@@ -21,7 +21,7 @@ import numpy as np
 from bikestab.bicycle import PAPER, parameters
 from bikestab.errors import InputError
 from bikestab.family import Family
-from bikestab.fields import AXES, COORDINATES, FIELDS, Axes
+from bikestab.fields import AXES, COORDINATES, FIELDS, GRADIENTS, Axes, gradient_names
 from bikestab.gains import GAINS
 from bikestab.hdf5 import check_links, check_whole, dataset, number_of, open_file, reading, text_of
 from bikestab.identity import identity
@@ -110,6 +110,7 @@ def _check_datasets(file: h5py.File, lengths: dict[str, int], lead: list[str], g
         fields = [name for name in FIELDS if name in file]
         ensemble = "ensemble_samples" in file.attrs
         bounds = any(name in file for name in BOUNDS)
+        gradients = any(name in file for name in gradient_names(grid))
     if not fields:
         raise InputError("has no field")
     for name in ("interval", "root", *(("parameter",) if lead else ())):
@@ -123,7 +124,7 @@ def _check_datasets(file: h5py.File, lengths: dict[str, int], lead: list[str], g
     with reading("boundary"):
         if not isinstance(file.get("boundary"), h5py.Group):
             raise InputError("is no group", key=("boundary",))
-    for name, axes, dtype in expected(fields, ensemble, bounds, grid):
+    for name, axes, dtype in expected(fields, ensemble, bounds, grid, gradients):
         data = dataset(file, name, dtype, tuple(lengths[axis] for axis in (*lead, *axes)))
         if name in fields:
             with reading(name):
@@ -210,6 +211,8 @@ def _check_identity(
         machines = file["machine"][()] if swept else np.array([list(numbers.values())], float)
     fields = {FIELDS[name].asked for name in FIELDS if name in file}
     rows = machines.reshape(-1, machines.shape[-1])
+    if gradient_names((*grid,))[0] in file:
+        fields.add(GRADIENTS)
     named = () if (*grid,) == AXES else (*list(grid)[:2], *numbers)
     fast = "growth_rate" in file and "kernel" in file["growth_rate"].attrs
     if given != identity(texts["model"], rows, [*grid.values()], fields, swept, None, named, fast=fast):

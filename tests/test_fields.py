@@ -41,7 +41,7 @@ def test_every_record_is_whole():
         assert field.cost >= 0
         assert field.packing >= 1
         assert not (field.flags and field.masks)
-    assert askable() == ["stable", "violated", "growth_rate", "conditions"]
+    assert askable() == ["stable", "violated", "growth_rate", "conditions", "dV1"]
     assert [name for name, field in FIELDS.items() if field.asked == "conditions"] == list(CONDITIONS)
 
 

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BeforeValidator, ConfigDict, Discriminator, Field, Tag, model_validator
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    WithJsonSchema,
+    model_validator,
+)
 
 from bikestab.config.measured import also_measured, also_measured_axes
 from bikestab.config.tolerance import Within
@@ -28,9 +37,9 @@ from bikestab.config.values import (
 )
 from bikestab.config.variation import VARIED
 from bikestab.errors import nearest
-from bikestab.fields import AXES, Axes, Axis
+from bikestab.fields import AXES, GRADIENTS, Axes, Axis, askable
 from bikestab.model import Floats
-from bikestab.units import units_in
+from bikestab.units import shown, units_in
 
 Name: TypeAlias = Annotated[str, Field(strict=True, description="a parameter of the bicycle")]
 
@@ -190,3 +199,20 @@ class Expectation(Strict):
         if (self.stable is None) == (self.V1 is None and self.V2 is None):
             raise mistake("expects nothing, or two things", "allowed: V1 and/or V2, or 'stable: never'")
         return self
+
+
+def _field(value: object) -> str:
+    if isinstance(value, str) and value in askable():
+        return str(value)
+    hint = nearest(value, askable()) if isinstance(value, str) else f"known: {', '.join(askable())}"
+    raise mistake(f"{shown(value)} is not known", hint)
+
+
+FieldName: TypeAlias = Annotated[
+    str, BeforeValidator(_field), WithJsonSchema({"type": "string", "enum": askable()})
+]
+Fields: TypeAlias = Annotated[
+    list[FieldName],
+    Field(min_length=1, description="what the volume holds"),
+    AfterValidator(lambda given: ["stable", *given] if {*given} == {GRADIENTS} else given),
+]

@@ -24,7 +24,7 @@ from bikestab.config.members import (
     members,
     swept_axes,
 )
-from bikestab.config.parts import AnyGrid
+from bikestab.config.parts import AnyGrid, Fields
 from bikestab.config.parts import Expectation as Expectation
 from bikestab.config.parts import Plane as Plane
 from bikestab.config.values import (
@@ -36,25 +36,13 @@ from bikestab.config.values import (
 from bikestab.config.variation import SWEPT, Ensemble, with_units
 from bikestab.errors import InputError, nearest
 from bikestab.family import Family
-from bikestab.fields import AXES, askable
+from bikestab.fields import AXES
 from bikestab.identity import identity
 from bikestab.model import Floats, Model
 from bikestab.plausible import design_doubts
 from bikestab.presets import preset_names
 from bikestab.rider import left_behind
 from bikestab.units import shown
-
-
-def _field(value: object) -> str:
-    if isinstance(value, str) and value in askable():
-        return str(value)
-    hint = nearest(value, askable()) if isinstance(value, str) else f"known: {', '.join(askable())}"
-    raise mistake(f"{shown(value)} is not known", hint)
-
-
-FieldName: TypeAlias = Annotated[
-    str, BeforeValidator(_field), WithJsonSchema({"type": "string", "enum": askable()})
-]
 
 
 def _bicycle(value: object) -> Bicycle:
@@ -104,7 +92,7 @@ class ScanConfig(Strict):
     model: Annotated[Model, Field(description="refined, or unrefined as before the 1981 paper")] = "refined"
     delta: OwnDamping = None
     grid: AnyGrid
-    fields: Annotated[list[FieldName], Field(min_length=1, description="what the volume holds")] = [
+    fields: Fields = [
         "stable",
         "violated",
         "growth_rate",

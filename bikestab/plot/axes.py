@@ -20,7 +20,7 @@ HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
 
 def labels_of(family: Family) -> dict[str, str]:
     """What stands beside the axes of a family and V."""
-    named = {p.name: f"{p.meaning} {p.symbol} [{p.unit}]" for p in family.parameters}
+    named = {p.name: f"{p.meaning.partition(',')[0]} {p.symbol} [{p.unit}]" for p in family.parameters}
     return {**named, **{name: text for name, text in LABELS.items() if name in {*named, "V"}}}
 
 

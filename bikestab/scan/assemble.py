@@ -80,7 +80,7 @@ def _write(
             name: atlas.sheets(plan.cell(number), columns.roots[name], columns.intervals)
             for name, atlas in atlases.items()
         }
-        writer.write_columns(place, columns.intervals, surfaces, columns.spread)
+        writer.write_columns(place, columns.intervals, surfaces, columns.spread, columns.gradients)
 
 
 def _columns(spool: Spool, number: int) -> Columns:

@@ -19,7 +19,7 @@ from bikestab import yamltext
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.config.variation import Ensemble
 from bikestab.errors import KEPT, NOT_KEPT, InputError, ScanError, dotted
-from bikestab.fields import FIELDS
+from bikestab.fields import FIELDS, GRADIENTS, gradient_names
 from bikestab.files import NO_SPACE, beside, linked
 from bikestab.identity import digest
 from bikestab.model import Floats
@@ -166,7 +166,9 @@ def _differences(volume: Volume, plan: Plan) -> Iterator[str]:
     pairs["axes"] = (" × ".join(volume.axes), " × ".join(config.grid.names))
     there, here = json.loads(volume.text("bicycle_parameters")), config.family(None).kept
     pairs |= {name: (there.get(name), value) for name, value in here.items()}
-    pairs["fields"] = (" ".join(volume.fields), " ".join(plan.fields))
+    slopes = any(name in volume.file for name in gradient_names(config.grid.names))
+    asked = [*plan.fields, *([GRADIENTS] if GRADIENTS in config.fields else [])]
+    pairs["fields"] = (" ".join([*volume.fields, *([GRADIENTS] if slopes else [])]), " ".join(asked))
     axes = {axis.name: axis.values for axis in config.axes}
     there = any("kernel" in volume.file[name].attrs for name in volume.fields)
     pairs["fast"] = (str(there).lower(), str(config.compiled).lower())

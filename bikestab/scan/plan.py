@@ -9,7 +9,7 @@ from math import ceil, prod
 import numpy as np
 
 from bikestab.config.scanconfig import ScanConfig
-from bikestab.fields import FIELDS
+from bikestab.fields import FIELDS, GRADIENTS
 from bikestab.model import Floats
 from bikestab.scan.tile import Tile
 
@@ -154,7 +154,8 @@ class Plan:
             swept = {name: np.array([[each[name]] for each in values]) for name in values[0]}
         return Tile(
             family, x, y, V, self.fields, self.chunk, lowest, above, config.ensemble,
-            block=self._block_at(place[:-3]), whole=self.whole, swept=swept, fast=config.compiled,
+            block=self._block_at(place[:-3]), whole=self.whole,
+            gradients=GRADIENTS in config.fields, swept=swept, fast=config.compiled,
         )  # fmt: skip
 
     @cached_property

@@ -19,6 +19,7 @@ from bikestab.critical import Critical, critical
 from bikestab.errors import ScanError
 from bikestab.family import Family
 from bikestab.fields import FIELDS, Points
+from bikestab.gradients import speed_gradients
 from bikestab.model import ExactTable, Floats
 from bikestab.routh import CONDITIONS
 from bikestab.scan.agreement import AGREEMENT, Agreement
@@ -61,6 +62,7 @@ class Tile:
     whole: bool = False
     swept: Mapping[str, Floats] = field(default_factory=dict)
     fast: bool = False
+    gradients: bool = False
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -84,7 +86,8 @@ class Columns(NamedTuple):
 
     Where the tile has whole planes there are ``sheets`` of the roots, else the ``roots`` as they come.
     ``undecided`` (λ, σ) tells where there may be others. ``spread`` (λ, σ, item) is an ensemble's
-    ``somewhere``, ``unbounded``, and quantiles of V1 and of V2. All have a sweep's axes in front.
+    ``somewhere``, ``unbounded``, and quantiles of V1 and of V2. ``gradients`` are those of
+    ``speed_gradients``, if they are asked for. All have a sweep's axes in front.
     """
 
     intervals: Intervals
@@ -92,6 +95,7 @@ class Columns(NamedTuple):
     sheets: dict[str, Sheets]
     undecided: NDArray[np.bool_]
     spread: Floats
+    gradients: Floats
 
     def to_bytes(self) -> bytes:
         """The columns as they are kept until the volume is written."""
@@ -102,6 +106,7 @@ class Columns(NamedTuple):
             np.stack([V1, V2, V1_error, V2_error]), np.stack([lower, upper, marginal]),
             np.cumsum([each.shape[-1] for each in V]),
             np.concatenate(V, axis=-1), np.concatenate(other, axis=-1), self.undecided, self.spread,
+            self.gradients,
         ):  # fmt: skip
             head = json.dumps([array.dtype.str, array.shape]).encode()
             out += len(head).to_bytes(4, "little") + head + array.tobytes()
@@ -157,7 +162,7 @@ def compute(tile: Tile) -> Finished:
         chunks += packed(field_values(name, table, tile, mask, probability), tile.chunk)
     columns = b""
     if tile.lowest:
-        of_columns = _columns(whole, exact, spread, tile.whole)
+        of_columns = _columns(whole, exact, spread, tile)
         columns = of_columns.to_bytes()
         notes["intervals"] = of_columns.intervals.V1.shape[-1]
         if tile.whole:
@@ -212,18 +217,24 @@ def _ensemble(tile: Tile) -> tuple[NDArray[np.float32], Floats]:
     return statistics.probability, spread.reshape(*tile.shape[:-1], -1)
 
 
-def _columns(table: ExactTable, exact: Critical, spread: Floats, in_sheets: bool) -> Columns:
-    shape = spread.shape[:-1]
+def _columns(table: ExactTable, exact: Critical, spread: Floats, tile: Tile) -> Columns:
+    shape, in_sheets = spread.shape[:-1], tile.whole
     intervals = intervals_between(table, exact)
     roots = {}
     for name in CONDITIONS:
         V = exact.speeds[name].T.reshape(*shape, len(exact.speeds[name]))
         roots[name] = Roots(V, (exact.sign[name] < 0).reshape(*shape, 1))
     ends = Intervals(*(field.reshape(*shape, field.shape[-1]) for field in intervals.arrays().values()))
+    gradients = np.empty((*ends.V1.shape, 0))
+    if tile.gradients:
+        found = speed_gradients(tile.family, *tile.cells, intervals, tile.swept)
+        gradients = found.reshape(*ends.V1.shape, 4)
     sheets = {}
     if in_sheets:
         sheets = {name: sheets_of_planes(name, each, ends) for name, each in roots.items()}
-    return Columns(ends, {} if in_sheets else roots, sheets, undecided(exact).reshape(shape), spread)
+    return Columns(
+        ends, {} if in_sheets else roots, sheets, undecided(exact).reshape(shape), spread, gradients
+    )
 
 
 def _disagreement(agreement: Agreement) -> ScanError:

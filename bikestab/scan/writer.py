@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.fields import FIELDS, Field, coordinates
+from bikestab.fields import FIELDS, GRADIENTS, Field, coordinates, gradient_names
 from bikestab.files import beside, linked
 from bikestab.model import Floats
 from bikestab.routh import CONDITIONS
@@ -121,6 +121,8 @@ class VolumeWriter:
         for name in ("V1", "V2"):
             text = f"bound of the error of {name}: the true end for exactly these inputs is within it"
             self._column(f"{name}_error", "interval", np.float64, "m s-1", text)
+        if GRADIENTS in self.plan.config.fields:
+            self._create_gradients()
         text = "what rounding leaves undecided of the number of intervals and of the kinds of their ends"
         flags(self._create("marginal", self._grid[:2], np.uint8, self.plan.tile[:-1], "1", text), MARGINAL)
         self._counter("root", max(1, sheets), "number of the sheet of roots")
@@ -132,6 +134,13 @@ class VolumeWriter:
             flags(self._column(f"boundary/{name}_edge", "root", np.uint8, "1", text), ("no_edge", "edge"))
         if self.plan.config.ensemble:
             self._create_spread(self.plan.config.ensemble.quantiles)
+
+    def _create_gradients(self) -> None:
+        parameters = [*self.plan.config.family().parameters] * 2
+        for name, parameter in zip(gradient_names(self._grid), parameters, strict=True):
+            unit = "m s-1" if parameter.unit == "1" else f"m s-1 / ({parameter.unit})"
+            text = f"slope of {name[1:3]} of each stable interval by {parameter.name}"
+            self._column(name, "interval", np.float64, unit, text)
 
     def _create_spread(self, quantiles: list[float]) -> None:
         self._scale("quantile", np.array(quantiles), "1", "share of the machines with a stable speed")
@@ -146,7 +155,12 @@ class VolumeWriter:
             self._column(f"{name}_quantiles", "quantile", np.float64, "m s-1", text)
 
     def write_columns(
-        self, place: tuple[int, ...], intervals: Intervals, surfaces: dict[str, Sheets], spread: Floats
+        self,
+        place: tuple[int, ...],
+        intervals: Intervals,
+        surfaces: dict[str, Sheets],
+        spread: Floats,
+        gradients: Floats,
     ) -> None:
         """Put a tile's intervals, boundary surfaces and, for an ensemble, their spread into the file."""
         for name, values in intervals.arrays().items():
@@ -156,6 +170,8 @@ class VolumeWriter:
         for name, (V, edge) in surfaces.items():
             self._write_column(f"boundary/{name}", place, V)
             self._write_column(f"boundary/{name}_edge", place, edge)
+        for k, name in enumerate(gradient_names(self._grid) if gradients.shape[-1] else ()):
+            self._write_column(name, place, np.ascontiguousarray(gradients[..., k]))
         if spread.shape[-1]:
             V1, V2 = np.split(spread[..., 2:], 2, axis=-1)
             self._write_column("V1_quantiles", place, V1)
