@@ -7,7 +7,7 @@ The signs of all methods are compared before anything is timed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 
 import common
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
+from bikestab.compiled import available
 from bikestab.critical import critical
 from bikestab.family import Family
 from bikestab.model import canonical_matrices, characteristic_table
@@ -124,6 +125,9 @@ def own_tasks(delta: float) -> dict[str, Task]:
     name = "the same in a scan"
     tasks[name] = Task(f"{name}: checked, intervals, compressed", lambda: compute(t), prod(t.shape))
     tasks["growth_rate"] = Task("growth_rate", lambda: growth(small), prod(small.shape))
+    if available():
+        fast = replace(small, fast=True)
+        tasks["fast"] = Task("growth_rate by the compiled kernel", lambda: growth(fast), prod(fast.shape))
     return tasks
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import columns
 import common
 import memory
+import peers
 import points
 import scaling
 import scans
@@ -25,5 +26,6 @@ if __name__ == "__main__":
             "scans": scans.run,
             "memory": memory.run,
             "startup": startup.run,
+            "peers": peers.run,
         },
     )
