@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -100,16 +100,21 @@ def scan(
     return Scan(done.path, tuple(paths), done.computed, done.points, done.stable_points)
 
 
-def drawing(config: ScanConfig) -> AbstractContextManager[Callable[[], Drawn]]:
-    """Begin with a scan's pictures, meanwhile if there is a core for it; the function waits for them."""
+def drawing(config: ScanConfig) -> AbstractContextManager[Callable[[], Drawn | None]]:
+    """Begin with a scan's pictures, meanwhile if there is a core for it; the function waits for them.
+
+    It gives None for more machines than are drawn, which need no matplotlib.
+    """
+    if len(config.members) > MOST_DRAWN:
+        return nullcontext(lambda: None)
     return meanwhile(partial(_drawn, config))
 
 
 def write_pictures(
-    config: ScanConfig, path: str | Path, drawn: Drawn, tell: Callable[[str], None]
+    config: ScanConfig, path: str | Path, drawn: Drawn | None, tell: Callable[[str], None]
 ) -> list[Path]:
     """Write pictures beside the volume at ``path``; ``tell`` is called with what could not be drawn."""
-    if len(config.members) > MOST_DRAWN:
+    if drawn is None:
         values = " ".join(f"--at {name}={value:g}" for name, value in config.members[0].values.items())
         x, _, _ = config.grid.names
         plane = "--lam VALUE" if x == "lam" else f"--at {x}=VALUE"
@@ -117,6 +122,7 @@ def write_pictures(
             f"note: pictures of {len(config.members)} machines are not drawn; draw one with, for example, "
             f"'bikestab slice {path} {plane} {values}'"
         )
+        return []
     for words in drawn.told:
         tell(words)
     files = drawn.files
@@ -132,9 +138,9 @@ def write_pictures(
 
 
 def _drawn(config: ScanConfig) -> Drawn:
-    from bikestab.plot.pictures import Drawn, draw_without_volume
+    from bikestab.plot.pictures import draw_without_volume
 
-    return draw_without_volume(config) if len(config.members) <= MOST_DRAWN else Drawn({}, [])
+    return draw_without_volume(config)
 
 
 def open_volume(path: str | Path) -> Volume:
