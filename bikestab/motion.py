@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from bikestab.arguments import Given, design_of, table_and_speeds
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError, nearest
+from bikestab.gains import rate_and_power
 from bikestab.model import Floats, Model, canonical_matrices
 from bikestab.modes import follow
 
@@ -86,10 +87,14 @@ def shapes(
 def matrices(
     bicycle: Bicycle, V: float, lam: Given = None, sigma: Given = None, *, model: Model = "refined"
 ) -> tuple[Floats, Floats, Floats]:
-    """M, C and K of M q'' + C q' + K q = 0 at a speed [m/s]; q = (roll, steer), damping in C."""
+    """M, C and K of M q'' + C q' + K q = 0 at a speed [m/s]; q = (roll, steer), with damping and gains."""
     tilt, trail = (float(value) for value in design_of(bicycle, lam, sigma))
     M, C1, K0, K2 = canonical_matrices(bicycle, tilt, trail, model=model)
-    return M, V * C1 + np.diag([0.0, bicycle.delta]), bicycle.g * K0 + V * V * K2
+    C, K = V * C1 + np.diag([0.0, bicycle.delta]), bicycle.g * K0 + V * V * K2
+    for name, gain in bicycle.gains:  # feedback of the steer torque
+        of_roll, order, power = rate_and_power(name)
+        (K, C)[order][1, 0 if of_roll else 1] += gain * V**power
+    return M, C, K
 
 
 def motion(

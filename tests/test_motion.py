@@ -81,6 +81,17 @@ def test_where_eigenvalues_meet_or_are_zero(offset):
         assert found.states == pytest.approx(expected, abs=1e-9 * max(1, np.abs(expected).max()))
 
 
+@pytest.mark.parametrize("V", [0.5, 4.0, 8.0])
+def test_feedback_is_in_the_matrices(V):
+    """Their eigenvalues are those of the table, which has the gains too."""
+    gains = {"k_phi": -12.0, "k_phidot_V": -1.5, "k_delta_V": 0.7, "k_deltadot": 0.4, "delta": 0.3}
+    bike = bs.Bicycle.preset("meijaard2007").replaced(gains)
+    M, C, K = matrices(bike, V)
+    A = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(M, K), -np.linalg.solve(M, C)]])
+    ours, theirs = (np.sort_complex(s) for s in (np.linalg.eigvals(A), bs.eigenvalues(bike, V)))
+    assert ours == pytest.approx(theirs, abs=1e-9 * np.abs(theirs).max())
+
+
 def test_damping_and_the_start():
     bike = bs.Bicycle.preset("sharp1971")
     push = {"roll": 0.1, "steer": 0.02, "roll_rate": -0.3, "steer_rate": 0.4}
