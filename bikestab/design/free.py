@@ -96,9 +96,12 @@ class Free:
 
 
 class FreeDesign(Design):
-    """A design, its free ``values``, its widest stable interval, and the growth rate as judged."""
+    """A design, its free parameters in ``over``, its widest interval, and the growth rate as judged.
 
-    values: dict[str, float]
+    ``at`` says at which limits it lies.
+    """
+
+    over: dict[str, float]
     V1: float | None
     V2: float | None
     lower: str | None
@@ -106,6 +109,7 @@ class FreeDesign(Design):
     width: float
     growth_rate: float | None
     V: float
+    at: str
 
 
 class RobustDesign(TypedDict):
@@ -186,11 +190,18 @@ def free_design(free: Free, x: Floats) -> FreeDesign:
     machine, lam, sigma = varied(free.bicycle, dict(zip(free.ends, x.tolist(), strict=True)))
     return {
         **design_record(float(lam), float(sigma), machine),
-        "values": dict(zip(free.ends, x.tolist(), strict=True)),
+        "over": dict(zip(free.ends, x.tolist(), strict=True)), "at": _place(free, x),
         "V1": finite(V1), "V2": finite(V2),
         "lower": KINDS[lower] if upper else None, "upper": KINDS[upper] if upper else None,
         "width": float(found.width[0, k]), "growth_rate": finite(rate[0]), "V": float(V[0]),
     }  # fmt: skip
+
+
+def _place(free: Free, x: Floats) -> str:
+    low, high = free.box
+    at = np.minimum(np.abs(x - low), np.abs(x - high)) <= 1e-6 * (high - low)
+    limits = [f"limit of {name}" for name, there in zip(free.ends, at, strict=True) if there]
+    return ", ".join(limits) or "interior"
 
 
 def _robust_design(free: Free, robust: Robust) -> RobustDesign:

@@ -47,7 +47,7 @@ def tell_free(
             free = Free(machine.bicycle, ends, model, V_max, judged, stable)
             best = best_free(free, {**known, **given})
         searched = {**ends, "V_max": V_max, "judged": judged, "stable": stable}
-        results.append([{"searched": searched, **best._asdict()}])
+        results.append([{"searched": searched, **best._asdict(), "pareto": [], "closest": None}])
         told.append(told_free(free, best, machine.changes))
     if as_json:
         print_json(record_of(machines, model, results))
@@ -87,9 +87,7 @@ def _rows(free: Free, designs: list[FreeDesign]) -> list[list[str]]:
     rows = []
     for name in free.ends:
         unit = parameter_of(free.bicycle, name).unit
-        rows.append(
-            [f"{name} [{unit}]".removesuffix(" [1]"), *(within(d["values"][name], 9) for d in designs)]
-        )
+        rows.append([f"{name} [{unit}]".removesuffix(" [1]"), *(within(d["over"][name], 9) for d in designs)])
     rows.append(["head angle [°]", *(f"{d['head_angle_deg']:.3f}" for d in designs)])
     rows += [[f"{key} [m]", *(f"{value:z.4f}" for value in values)] for key, values in (
         ("trail", [d["trail"] for d in designs]), ("offset", [d["offset"] for d in designs])

@@ -98,6 +98,11 @@ _REGION = record(
     mean=num("distance of the stable speeds, on the mean of designs with any [m/s]"),
     within=_CHANGE["properties"]["within"],
 )  # fmt: skip
+_ROBUST = record(
+    "the design with the largest ball of stable machines", design=_JUDGED,
+    radius=num("of the ball, in standard deviations"),
+    nearest=named(NUMBERS, "the nearest machine that is not stable, by parameter"),
+)  # fmt: skip
 _WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")
 _AXIS = record(
     "an axis", first=num("first value"), last=num("last value"), num=whole("how many"),
@@ -125,7 +130,7 @@ SCHEMAS: dict[str, Schema] = {
     ),
     "eigen": EIGEN,
     "design": of_machines(
-        "a machine's search",
+        "a machine's search", ("most_robust",),
         searched={
             **record(
                 "what was asked, the ends of --over by parameter", ("lam", "sigma", "trail", "offset"),
@@ -135,7 +140,8 @@ SCHEMAS: dict[str, Schema] = {
             "additionalProperties": _PAIR,
         },
         own=_JUDGED, widest=_JUDGED, lowest_V1=_JUDGED, fastest_decay=_JUDGED,
-        pareto=some(_JUDGED, "from the widest to the fastest"), closest=_JUDGED,
+        pareto=some(_JUDGED, "from the widest to the fastest; empty with --free"), closest=_JUDGED,
+        most_robust=either(_ROBUST, NULL, text="with --free; null without --sd"),
     ),
     "sensitivity": of_machines(
         "a design", **DESIGN, hold={"enum": ["trail", "offset", "sigma"], "description": "what stays"},

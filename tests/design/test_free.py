@@ -58,7 +58,7 @@ def robust():
 def around(robust, z):
     """A machine z standard deviations from the robust design, by its own reduction."""
     values = {
-        name: robust["design"]["values"][name] + sd * step
+        name: robust["design"]["over"][name] + sd * step
         for (name, sd), step in zip(DEVIATIONS.items(), z, strict=True)
     }
     return MEIJAARD.replaced({"c" if name == "trail" else name: value for name, value in values.items()})
@@ -66,7 +66,7 @@ def around(robust, z):
 
 def test_the_ball_holds_random_machines(robust):
     ball = Ball(MEIJAARD, "refined", (4.6, 5.4), PROBLEMS["three"].ends, DEVIATIONS)
-    x = np.array(list(robust["design"]["values"].values()))
+    x = np.array(list(robust["design"]["over"].values()))
     z = np.random.default_rng(6).standard_normal((3, 20_000))
     z *= robust["radius"] / np.linalg.norm(z, axis=0)
     at = np.repeat(x[:, np.newaxis], z.shape[1], axis=1)
@@ -76,7 +76,7 @@ def test_the_ball_holds_random_machines(robust):
         found = stable_intervals(around(robust, step))
         assert np.any((found.V1 <= 4.6) & (found.V2 >= 5.4))
     away = [
-        (robust["nearest"][name] - robust["design"]["values"][name]) / sd for name, sd in DEVIATIONS.items()
+        (robust["nearest"][name] - robust["design"]["over"][name]) / sd for name, sd in DEVIATIONS.items()
     ]
     assert np.linalg.norm(away) == pytest.approx(robust["radius"], rel=1e-9)
     beyond = stable_intervals(around(robust, 1.0001 * np.array(away)))
