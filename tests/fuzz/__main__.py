@@ -29,7 +29,7 @@ def main() -> int:
 def _run(kind: str, cases: int, number: int) -> int:
     codes: Counter[int] = Counter()
     last: list[Case] = []
-    longest = 0.0
+    longest = 0.0, ""
 
     @settings(
         max_examples=cases, deadline=None, database=None, suppress_health_check=list(HealthCheck),
@@ -42,7 +42,7 @@ def _run(kind: str, cases: int, number: int) -> int:
         last[:] = [case]
         begin = time.process_time()
         codes[judged(case)[0]] += 1
-        longest = max(longest, time.process_time() - begin)
+        longest = max(longest, (time.process_time() - begin, " ".join(case.args)))
 
     begin = time.perf_counter()
     failed = ""
@@ -54,7 +54,8 @@ def _run(kind: str, cases: int, number: int) -> int:
         failed = told(problem, last[0])
     counts = ", ".join(f"{codes[code]} ended with {code}" for code in sorted(codes))
     seconds = time.perf_counter() - begin
-    print(f"{kind}: {codes.total()} cases in {seconds:.0f} s, the longest {longest:.1f} s: {counts}")  # noqa: T201
+    print(f"{kind}: {codes.total()} cases in {seconds:.0f} s: {counts}")  # noqa: T201
+    print(f"  the longest {longest[0]:.1f} s: {longest[1][:200]!a}", flush=True)  # noqa: T201
     if failed:
         print(failed)  # noqa: T201
     return bool(failed)

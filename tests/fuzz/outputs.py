@@ -29,6 +29,22 @@ SPREAD = [  # what the config has, and how one machine of it is named
     ({"sweep": {"m1": [60, 80]}, "ensemble": {"h1": {"uniform": [0.9, 1.1]}, "samples": 2, "seed": 2}},
      ["--at", "m1=60"]),
 ]  # fmt: skip
+REPORTED = [  # boxes with little or no surface, which takes seconds else
+    {"lam": {"values": lam}, "sigma": {"values": [0.1, 0.2]}, "V": {"values": V}}
+    for lam in ([0.2], [0.2, 0.3]) for V in ([5.0], [30.0, 40.0])
+]  # fmt: skip
+VIEWS = [
+    ["--V", "0:10:5"], ["--V", "3:40:2"], ["--V", "0:0:1"], ["--V", "5"], ["--V", "10:3:4"], ["--locus"],
+    ["--shapes"], ["--push", "roll_rate=0.5"], ["--push", "steer=1,roll=0", "--at", "0"],
+    ["--over", "delta=0:5:5"],
+]  # fmt: skip
+OVER = [
+    ["--over", "delta=0:5:5"],
+    ["--lam", "0:0.3:5"],
+    ["--trail", "0:10cm:5"],
+    ["--over", "m1=50:90:3"],
+    [],
+]
 MORE = [["--at", "m1=70"], ["--at", "x=1"], ["--probability"]]
 
 
@@ -66,12 +82,12 @@ def _of_volumes(draw: Any) -> Case:
 
 @st.composite
 def _of_machines(draw: Any) -> Case:
-    command = draw(st.sampled_from(["eigen", "design", "sensitivity", "bicycles"]))
+    command = draw(st.sampled_from(["eigen", "design", "sensitivity", "bicycles", "vrange", "compare"]))
     files = {}
     if draw(st.booleans()):
         files["b.yaml"] = dumped(draw(machines)).encode()
     machine = "b.yaml" if files else draw(st.sampled_from(preset_names()))
-    args = [command, machine] if command == "bicycles" else [command, "--bicycle", machine]
+    args = [command, machine] if command in ("bicycles", "compare") else [command, "--bicycle", machine]
     pairs = {axis: draw(st.sampled_from(ends)) for axis, ends in ENDS.items()}
     if command == "design":
         for axis, one in pairs.items():
@@ -82,18 +98,28 @@ def _of_machines(draw: Any) -> Case:
             args += ["--stable", draw(st.sampled_from(["4:5", "5", "0:3", "20:25", "6:5"]))]
     else:
         own = files or machine == "dikarev1981" or not draw(st.integers(0, 3))
-        args += [f"--{axis}={pairs[axis]}" for axis in ("lam", "sigma")] if own else []
         args += (
-            ["--V", draw(st.sampled_from(["0:10:5", "3:40:2", "0:0:1", "5", "10:3:4"]))]
-            if command == "eigen"
-            else []
+            [f"--{axis}={pairs[axis]}" for axis in ("lam", "sigma")] if own and command != "vrange" else []
         )
+        args += draw(st.sampled_from({"eigen": VIEWS, "vrange": OVER}.get(command, [[]])))
+        args += [draw(st.sampled_from(preset_names()))] if command == "compare" else []
         args += ["-o", draw(st.sampled_from(DRAWN))]
     if command != "bicycles":
         args += draw(st.sampled_from([[], [], ["--delta", "1"], ["--model", "unrefined"], ["--json"]]))
     return Case(tuple(args), files)
 
 
+@st.composite
+def _reports(draw: Any) -> Case:
+    volume = volume_of(
+        dumped({"bicycle": "meijaard2007", "grid": draw(st.sampled_from(REPORTED)), "output": "OUT"})
+    )
+    return Case(
+        ("report", *["v.h5"] * draw(st.integers(1, 2)), "-o", draw(st.sampled_from(["out.html", "a/b"]))),
+        {"v.h5": volume},
+    )
+
+
 def outputs() -> st.SearchStrategy[Case]:
-    """Pictures, designs, meshes and tables."""
-    return _of_volumes() | _of_machines()
+    """Pictures, designs, meshes, tables and pages."""
+    return _of_volumes() | _of_volumes() | _of_machines() | _of_machines() | _reports()
