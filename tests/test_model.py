@@ -131,6 +131,16 @@ def test_tiny_but_true_coefficient_is_kept(C1):
     assert (got != 0) == (C1 > 0)
 
 
+def test_nearly_singular_inertias_keep_their_digits():
+    """Two point masses beside a design where both turn about one axis: p4 is 1e-8 of its terms."""
+    bicycle = Bicycle.from_mapping(TWO_MASS_SKATE)
+    sigma = np.array([0.05, 0.1411, 0.2])
+    p4 = characteristic_table(bicycle, 0.3, sigma)[4, 0]
+    np.testing.assert_allclose(p4, exact_table(bicycle, 0.3, sigma).value[4, 0], rtol=1e-11)
+    alone = [characteristic_table(bicycle, 0.3, one)[4, 0] for one in sigma]
+    assert p4.tolist() == alone
+
+
 def test_zero_speed_terms_of_damping():
     """Without damping the rows p3 and p1 have odd powers of V only."""
     bicycle = Bicycle.preset("meijaard2007")

@@ -9,9 +9,20 @@ from hypothesis import assume, given, settings
 from mpmath import mp, mpf
 
 from bikestab.bicycle import Bicycle
+from bikestab.entries import cells_of
 from bikestab.model import characteristic_table
 from bikestab.routh import coefficients_at, condition_polynomials
-from bikestab.speeds import CAPSIZE, KINDS, NONE, REST, UNBOUNDED, WEAVE, critical_speeds, intervals_of
+from bikestab.speeds import (
+    CAPSIZE,
+    KINDS,
+    NONE,
+    REST,
+    UNBOUNDED,
+    WEAVE,
+    _others_positive,
+    critical_speeds,
+    intervals_of,
+)
 from tests.references import generate_speeds as reference
 from tests.strategies import lams, machines, sigmas
 
@@ -165,6 +176,14 @@ def test_touching_weave_is_no_edge():
     """hurwitz3/V² = (V² − 1)² touches zero at V = 1 without a change of sign; p0 = 3 V² − 1."""
     touching = table_of({(4, 0): 1, (3, 1): 1, (2, 2): 2, (2, 0): 1, (1, 3): 1, (0, 2): 3, (0, 0): -1})
     assert tuples_of(touching) == [(pytest.approx(1 / math.sqrt(3)), np.inf, CAPSIZE, UNBOUNDED)]
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+def test_the_sign_of_a_coefficient_that_cancels_is_not_certain(k):
+    """1 − V/3 at V = 3; beside a certain p1 or p2 the other of them need not be."""
+    table = table_of({(j, 0): 1.0 for j in range(1, 5)} | {(k, 1): -1 / 3}, (1,))
+    stable, certain = _others_positive(cells_of(table), np.array([0]), np.array([3.0]))
+    assert (stable.item(), certain.item()) == (k < 3, k < 3)
 
 
 def test_root_of_hurwitz3_that_is_no_edge():

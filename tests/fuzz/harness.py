@@ -12,6 +12,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 from bikestab_cli.main import main
@@ -44,7 +45,9 @@ def judged(case: Case) -> tuple[int, str]:
         assert code in (0, 1, 2, 3), (code, err)
         assert "a mistake of bikestab itself" not in err, err
         assert "Traceback" not in out + err, err
-        _check_message(code, err)
+        _check_messages(
+            code, err, len(case.args) if case.args[:1] == ("check",) else 1
+        )  # it tells of each file
         assert Path(KEPT).read_text() == KEPT_TEXT, "a file was lost"
         for name, content in case.files.items():
             assert Path(name).read_bytes() == content, f"{name} was lost"
@@ -89,14 +92,16 @@ def limited(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGPROF, handler)
 
 
-def _check_message(code: int, err: str) -> None:
+def _check_messages(code: int, err: str, most: int) -> None:
     lines = [line for line in err.splitlines() if not line.startswith(("warning: ", "note: "))]
     assert visible(err) == err, err
     assert all(len(line) <= LONGEST for line in lines), err
     if code >= 2:
         assert lines, "no message"
         assert lines[0].startswith("error: "), err
-        assert len(lines) <= 3, err
+        begins = [i for i, line in enumerate(lines) if line.startswith("error: ")]
+        assert len(begins) <= most, err
+        assert all(end - begin <= 3 for begin, end in pairwise([*begins, len(lines)])), err
 
 
 def told(problem: BaseException, case: Case) -> str:
