@@ -2,7 +2,7 @@
 
 A mutant is one operator, comparison, sign or number of a module changed, in a copy of the repository. It is
 noticed where the tests named beside the module fail or take more than SECONDS of processor time; others are
-told by line.
+told, with the line as Python writes it. More mutants of the same seed are the fewer ones first.
 """
 
 import ast
@@ -73,7 +73,7 @@ def main(number=100, seed=0):
     """Try so many mutants, drawn at random."""
     every = [(name, *mutant) for name in TESTS
              for mutant in mutants((ROOT / f"bikestab/{name}.py").read_text("utf-8"))]  # fmt: skip
-    drawn, counts = random.Random(seed).sample(every, min(number, len(every))), Counter()
+    drawn, counts = random.Random(seed).sample(every, len(every))[:number], Counter()
     with tempfile.TemporaryDirectory() as folder:
         for part in ("bikestab", "cli", "tests", "configs", "docs"):
             shutil.copytree(ROOT / part, Path(folder, part))
@@ -83,12 +83,15 @@ def main(number=100, seed=0):
         for name, line, text in drawn:
             path = Path(folder, f"bikestab/{name}.py")
             whole = path.read_text("utf-8")
+            before = ast.unparse(ast.parse(whole))
             path.write_text(text, "utf-8")
             found = noticed(folder, name)
             path.write_text(whole, "utf-8")
             counts[name, found] += 1
             if not found:
-                print(f"not noticed: {name}.py, line {line}", flush=True)
+                was, now = next(pair for pair in zip(before.split("\n"), text.split("\n"), strict=True)
+                                if pair[0] != pair[1])  # fmt: skip
+                print(f"not noticed: {name}.py, line {line}: {was.strip()} -> {now.strip()}", flush=True)
     for name in TESTS:
         tried = counts[name, True] + counts[name, False]
         print(f"{name}: {counts[name, True]} of {tried} noticed")
