@@ -7,19 +7,18 @@ from typing import Any, TypedDict
 
 from bikestab.bicycle import Bicycle
 from bikestab.design.sensitivity import Sensitivity
+from bikestab.design.steps import steps_to_lower
 from bikestab.errors import InputError
 from bikestab.records import Interval, design_record, interval_records
 from bikestab.speeds import UNBOUNDED
 from bikestab.stability import stable_intervals
-
-LOWER = -0.1  # m/s: the change of V1 for which each row says what it takes
 
 
 class Row(TypedDict):
     """One parameter's effect on one interval; None where there is no derivative.
 
     ``dV1`` is in m/s for one unit, ``elasticity_V1`` in per cent for one per cent, and ``change`` is by how
-    many units the parameter would have to change for V1 to move by LOWER, if it went on as it starts.
+    many units the parameter alone must change for V1 to be LOWER away, None where it cannot: ``steps``.
     ``notation`` tells parameters of the bicycle's notation from other measures of the front.
     """
 
@@ -45,11 +44,12 @@ class Tried(TypedDict):
 
 def effects(found: Sensitivity, interval: int) -> list[Row]:
     """The rows of one stable interval, by falling size of the larger elasticity; what has none comes last."""
-    rows = [_row(found, name, interval) for name in found.values]
+    steps = steps_to_lower(found, interval)
+    rows = [_row(found, name, interval, steps[name]) for name in found.values]
     return sorted(rows, key=_size)
 
 
-def _row(found: Sensitivity, name: str, interval: int) -> Row:
+def _row(found: Sensitivity, name: str, interval: int, change: float | None) -> Row:
     dV1, dV2 = finite(found.dV1[name][interval]), finite(found.dV2[name][interval])
     one, two = (finite(each[interval]) for each in found.elasticity(name))
     unbounded = found.intervals.upper[interval] == UNBOUNDED
@@ -63,7 +63,7 @@ def _row(found: Sensitivity, name: str, interval: int) -> Row:
         "dV2": None if unbounded else dV2,
         "elasticity_V1": one,
         "elasticity_V2": None if unbounded else two,
-        "change": LOWER / dV1 if dV1 else None,
+        "change": change,
     }
 
 

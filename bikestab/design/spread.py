@@ -13,7 +13,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from bikestab.bicycle import Bicycle
-from bikestab.design.sensitivity import Sensitivity
+from bikestab.design.sensitivity import Hold, Sensitivity, sensitivity
 from bikestab.draws import correlation_matrix, drawn
 from bikestab.errors import InputError, nearest
 from bikestab.limits import MOST_TRAIL
@@ -101,11 +101,21 @@ def spread(
     return result
 
 
+def _as_measured(found: Sensitivity, deviations: Mapping[str, float]) -> Sensitivity:
+    """The same with that held of which the deviations are, however a frame may be changed."""
+    own: Hold = "trail" if found.bicycle.bodies is not None else "sigma"
+    hold: Hold = "offset" if "offset" in deviations else own
+    if hold == found.hold:
+        return found
+    return sensitivity(found.bicycle, found.lam, found.sigma, hold=hold, model=found.model)
+
+
 def own_spread(found: Sensitivity, *, of_file: bool, given: Mapping[str, float]) -> Spread | None:
     """The spread by the deviations of the bicycle's file, if they are asked for, and by those ``given``.
 
     None where there are none. Correlations are those of the file. One that is given stands in place of the
-    file's: of the trail or of the tilt, under any of its names.
+    file's: of the trail or of the tilt, under any of its names. Whatever ``found.hold`` is, what was measured
+    is the trail (σ in the paper's notation), or the offset where that is uncertain; it stays with others.
     """
     bicycle = found.bicycle
     known = {name: sd for name, sd in bicycle.deviations.items() if sd > 0} if of_file else {}
@@ -113,7 +123,7 @@ def own_spread(found: Sensitivity, *, of_file: bool, given: Mapping[str, float])
         if any(name in names for name in given):
             known = {name: sd for name, sd in known.items() if name not in names}
     deviations = {**known, **given}
-    return spread(found, deviations, bicycle.correlations) if deviations else None
+    return spread(_as_measured(found, deviations), deviations, bicycle.correlations) if deviations else None
 
 
 def plain(result: Spread) -> dict[str, Any]:

@@ -62,7 +62,8 @@ def command(
 
     Standard deviations, those in the bicycle's file and --sd, give V1 and V2 their own: by the linear rule
     from the derivatives, and by 20 000 machines drawn at random, which tell how many of them are stable at
-    all. Where the two disagree the reason is told, and the drawn machines are right.
+    all. Where the two disagree the reason is told, and the drawn machines are right. They do not depend on
+    --hold: what was measured is the trail, or σ in the paper's notation, or an offset that is uncertain.
 
     \b
     Examples:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from bikestab.records import Interval
 
 _FEW = 4  # machines that fit side by side
+_BUILDERS = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi)}  # units in which a frame is built
+_LEAST = 4  # listed as those that lower V1 most easily
 _NAMES = 6  # listed as those that widen the interval most
 _HELD = {
     "trail": "trail held: it stays where tilt, wheelbase and front wheel vary",
@@ -60,17 +62,18 @@ def _table(rows: Sequence[Row], first: str) -> str:
     head = [first, "value", "unit", "dV1/dp", "%/%", "dV2/dp", "%/%", "V1 -0.1"]
     cells = [
         [
-            row["name"], f"{row['value']:.5g}", row["unit"],
-            _number(row["dV1"]), _share(row["elasticity_V1"]),
-            _number(row["dV2"]), _share(row["elasticity_V2"]), _number(row["change"], "+.3g"),
+            row["name"], f"{row['value'] * size:.5g}", unit,
+            _number(row["dV1"], 1 / size), _share(row["elasticity_V1"]),
+            _number(row["dV2"], 1 / size), _share(row["elasticity_V2"]), _number(row["change"], size, "+.3g"),
         ]
         for row in rows
+        for unit, size in [_BUILDERS.get(row["unit"], (row["unit"], 1.0))]
     ]  # fmt: skip
     return table(head, cells)
 
 
-def _number(value: float | None, style: str = ".4g") -> str:
-    return "-" if value is None else f"{value:{style}}"
+def _number(value: float | None, size: float, style: str = ".4g") -> str:
+    return "-" if value is None else f"{value * size:{style}}"
 
 
 def _share(value: float | None) -> str:
@@ -81,24 +84,37 @@ def _words(rows: Sequence[Row]) -> str:
     """What the last column is, and which parameters widen the interval most."""
     lines = [
         "%/%: per cent of the speed for one per cent of the parameter",
-        "V1 -0.1: by how much it changes where V1 falls by 0.1 m/s, going on as it starts",
+        "V1 -0.1: by how much it alone must change for V1 to fall by 0.1 m/s; -: no change does",
     ]
+    if least := _least(rows):
+        lines.append(f"to lower V1 by 0.1 m/s these change least, as a share of themselves: {least}")
     unmoved = [row["name"] for row in rows if row["dV1"] == 0 and row["dV2"] in (0, None)]
     if unmoved:
         lines.append(f"these do not move the ends: {', '.join(unmoved)}")
     gains = {row["name"]: gain for row in rows if row["notation"] and (gain := _gain(row))}
-    for way, word in ((1, "more"), (-1, "less")):
+    for way, word in ((1, "increase"), (-1, "decrease")):
         names = sorted((name for name in gains if way * gains[name] > 0), key=lambda name: -abs(gains[name]))
         if names:
-            lines.append(f"wider with {word} of: {', '.join(names[:_NAMES])}")
+            lines.append(f"wider when these {word}: {', '.join(names[:_NAMES])}")
     return "\n".join(lines)
 
 
+def _least(rows: Sequence[Row]) -> str:
+    """The parameters of which the smallest changes, as shares of their values, lower V1."""
+    found = []
+    for row in rows:
+        if row["change"] and row["value"] and row["notation"]:
+            unit, size = _BUILDERS.get(row["unit"], (row["unit"], 1.0))
+            share = abs(row["change"] / row["value"])
+            found.append((share, f"{row['name']} {row['change'] * size:+.3g} {unit} ({share:.1%})"))
+    return ", ".join(text for _, text in sorted(found)[:_LEAST])
+
+
 def _gain(row: Row) -> float | None:
-    """How much wider the interval gets, in m/s for one per cent."""
+    """How much wider the interval gets, in m/s where the number increases by one per cent of its size."""
     if row["dV1"] is None or row["dV2"] is None:
         return None
-    return 0.01 * abs(row["value"]) * (row["dV2"] - row["dV1"]) * math.copysign(1, row["value"])
+    return 0.01 * abs(row["value"]) * (row["dV2"] - row["dV1"])
 
 
 def _decay(found: Sensitivity) -> str:

@@ -30,7 +30,7 @@ def from_markdown(path):
     lines = []
     for kind, block in re.findall(r"^```(\w+)\n(.*?)^```", path.read_text("utf-8"), re.M | re.S):
         if kind in ("sh", "bash", "console", "shell"):
-            for line in block.splitlines():
+            for line in block.replace("\\\n", " ").splitlines():
                 line = line.removeprefix("$ ").split(" && ")[-1]
                 if line.startswith("bikestab "):
                     lines.append(line)

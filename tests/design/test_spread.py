@@ -122,6 +122,18 @@ def test_machines_are_drawn_with_the_same_held(hold):
             assert end["sampled"] == pytest.approx(end["linear"], rel=0.03)
 
 
+@pytest.mark.parametrize("hold", ["trail", "sigma", "offset"])
+def test_what_was_measured_does_not_depend_on_how_a_frame_may_be_changed(hold):
+    """Trail and tilt of a file are the measured ones; of an uncertain offset the fork is."""
+    measured = BENCHMARK.measured({"c": 0.001, "lam": 0.01, "w": 0.01}, {})
+    own = own_spread(sensitivity(measured), of_file=True, given={})
+    assert own_spread(sensitivity(measured, hold=hold), of_file=True, given={}) == own
+    by_fork = own_spread(
+        sensitivity(BENCHMARK, hold=hold), of_file=False, given={"offset": 1e-3, "lam": 0.01}
+    )
+    assert by_fork == spread(sensitivity(BENCHMARK, hold="offset"), {"offset": 1e-3, "lam": 0.01})
+
+
 def test_what_cannot_exist_is_left_out_and_an_unbounded_end_is_told():
     result = spread(sensitivity(BENCHMARK), {"IFyy": 0.2})  # below zero in 8 % of draws
     assert result["refused"] == pytest.approx(20_000 * 0.0808, rel=0.1)
