@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import comb
+from math import comb, lcm
 from typing import NamedTuple
 
 import numpy as np
@@ -35,28 +35,33 @@ class Bernstein(NamedTuple):
 def bernstein(polynomial: Polynomial, box: Sequence[tuple[Fraction, Fraction]]) -> Bernstein:
     """The Bernstein coefficients of a polynomial on a box, to the nearest doubles."""
     shape = [polynomial.degree(i) + 1 for i in range(polynomial.number)]
-    exact = np.full(shape, Fraction(), dtype=object)
+    below = lcm(*(value.denominator for value in polynomial.terms.values()))
+    exact = np.zeros(shape, dtype=object)  # whole numbers: fractions would be cancelled at each step
     for powers, value in polynomial.terms.items():
-        exact[powers] = value
+        exact[powers] = int(value * below)
     for axis, (low, high) in enumerate(box):
-        change = _change(shape[axis] - 1, low, high)
-        exact = np.moveaxis(np.tensordot(change, exact, axes=(1, axis)), 0, axis)
-    return Bernstein(exact.astype(float), (4 * sum(shape) + 2) * _UNIT)
+        change, scale = _change(shape[axis] - 1, low, high)
+        exact, below = np.moveaxis(np.tensordot(change, exact, axes=(1, axis)), 0, axis), below * scale
+    nearest = [value / below for value in exact.ravel().tolist()]
+    return Bernstein(np.reshape(nearest, shape), (4 * sum(shape) + 2) * _UNIT)
 
 
-def _change(degree: int, low: Fraction, high: Fraction) -> NDArray[np.object_]:
-    """Coefficients of powers on a line → Bernstein coefficients between low and high.
+def _change(degree: int, low: Fraction, high: Fraction) -> tuple[NDArray[np.object_], int]:
+    """Coefficients of powers on a line → Bernstein coefficients between low and high, times the number given.
 
     Coefficient i is the polar form at i times ``high`` and degree − i times ``low``.
     """
-    change = np.full((degree + 1, degree + 1), Fraction(), dtype=object)
+    q = lcm(low.denominator, high.denominator)
+    a, b, combs = int(low * q), int(high * q), [comb(degree, k) for k in range(degree + 1)]
+    multiple = lcm(*combs)
+    change = np.zeros((degree + 1, degree + 1), dtype=object)
     for i in range(degree + 1):
         # Σ_k x^k/comb(degree, k) [z^k] (1 + high z)^i (1 + low z)^(degree − i)
-        row = [Fraction(1)] + [Fraction()] * degree
-        for value in [high] * i + [low] * (degree - i):
+        row = [1] + [0] * degree
+        for value in [b] * i + [a] * (degree - i):
             row = [row[0]] + [row[k] + value * row[k - 1] for k in range(1, degree + 1)]
-        change[i] = [row[k] / comb(degree, k) for k in range(degree + 1)]
-    return change
+        change[i] = [row[k] * q ** (degree - k) * (multiple // combs[k]) for k in range(degree + 1)]
+    return change, multiple * q**degree
 
 
 def bounds(whole: Bernstein, low: Floats, high: Floats) -> tuple[Floats, Floats]:

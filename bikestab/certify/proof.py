@@ -14,18 +14,21 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.certify.bernstein import Floats
+from bikestab.certify.centred import CentredProver
 from bikestab.certify.conditions import condition_formulas
 from bikestab.certify.grid import grid_of
-from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE, Decided, Prover, search
+from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE, Decided, Decides, Prover, search
 from bikestab.errors import InputError
 from bikestab.formulas import table_formulas
 from bikestab.letters import PARAMETERS, Model
 from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.stability import eigenvalues
 
-MOST_TOLERANCES = 2  # the number of Bernstein coefficients grows by a factor of about 5 with each
-BERNSTEIN = "Bernstein coefficients in tan(λ/2), σ, V or V² and what is varied"
-_PARTS = 4  # that a tolerance is divided into, at most
+MOST_TOLERANCES = 12
+MOST_BERNSTEIN = 1  # tolerances: with two it decides 1 % more cells in 50 times the time
+BERNSTEIN = "Bernstein coefficients"  # in tan(λ/2), σ, V or V² and what is varied
+CENTRED = "centred form"  # values and derivatives in the middles of blocks, products of two derivatives
+_PARTS = (1, 4, 4, 2, 2)  # that each tolerance is divided into, by their number; more are not
 
 
 @dataclass(frozen=True)
@@ -105,10 +108,12 @@ class Proof:
             "delta": self.bicycle.delta,
             "box": {name: [float(e[0]), float(e[-1])] for name, e in zip(names, self.edges, strict=True)},
             "cells": list(self.cells.shape),
+            "method": self.method,
             "verdict": self.verdict,
             "proved_stable": stable,
             "proved_unstable": unstable,
             "undecided": undecided,
+            "undecided_by_halving": list(self.decided.halvings),
             "counterexample": self.counterexample(),
         }
 
@@ -155,6 +160,9 @@ def prove(
     tolerances than MOST_TOLERANCES.
     """
     ranges = dict(tolerances or {})
+    if bicycle.gains:
+        problem = f"the bicycle {bicycle.name!r} has feedback, of which nothing can be proved"
+        raise InputError(problem, hint="leave its gains out")
     if len(ranges) > MOST_TOLERANCES:
         raise InputError(
             f"{len(ranges)} tolerances at once are more than the {MOST_TOLERANCES} that can be proved",
@@ -172,10 +180,15 @@ def prove(
     for end in (0, 1):
         if ranges:
             bicycle.replaced({name: ends[end] for name, ends in ranges.items()})
+    many = len(ranges) > MOST_BERNSTEIN
+    parts = _PARTS[len(ranges)] if len(ranges) < len(_PARTS) else 1
     others = [
-        np.linspace(*ends, _PARTS + 1) if ends[1] > ends[0] else np.array(ends) for ends in ranges.values()
+        np.linspace(*ends, parts + 1) if ends[1] > ends[0] else np.array(ends) for ends in ranges.values()
     ]
     grid = grid_of([lam, sigma, V, *others])
-    conditions = condition_formulas(table_formulas(bicycle, tuple(ranges), model=model))
-    decided = search(Prover(conditions, grid), progress=progress)
-    return Proof(bicycle, model, tuple(ranges), grid.edges, decided, BERNSTEIN)
+    if many:
+        prover: Decides = CentredProver(bicycle, tuple(ranges), model, grid)
+    else:
+        prover = Prover(condition_formulas(table_formulas(bicycle, tuple(ranges), model=model)), grid)
+    decided = search(prover, progress=progress)
+    return Proof(bicycle, model, tuple(ranges), grid.edges, decided, CENTRED if many else BERNSTEIN)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,16 +14,20 @@ from bikestab.certify.grid import Grid, Side
 
 UNDECIDED, STABLE, UNSTABLE = range(3)
 Blocks = NDArray[np.int64]  # (block, axis, 2): the first cell, and the one behind the last
-_ORDER = ("p4", "p0", "p1", "p2", "p3", "hurwitz3")  # the dearest last
+ORDER = ("p4", "p0", "p1", "p2", "p3", "hurwitz3")  # the dearest last
 _SIZE = 1 << 17  # numbers worked on at a time, which fit the cache
 
 
 class Decided(NamedTuple):
-    """Blocks that together are all cells, each once, and a verdict on each."""
+    """Blocks that together are all cells, each once, and a verdict on each.
+
+    ``halvings`` is which part of the cells was undecided before each halving of blocks, and at the end.
+    """
 
     cells: tuple[int, ...]
     blocks: Blocks
     verdicts: NDArray[np.uint8]
+    halvings: tuple[float, ...]
 
     def on_cells(self) -> NDArray[np.uint8]:
         """The verdict on each cell."""
@@ -36,6 +40,14 @@ class Decided(NamedTuple):
         return out
 
 
+class Decides(Protocol):
+    """What decides blocks of cells: by Bernstein coefficients here, by the centred form elsewhere."""
+
+    grid: Grid
+
+    def verdicts(self, blocks: Blocks, positive: NDArray[np.bool_]) -> NDArray[np.uint8]: ...
+
+
 class Prover:
     """The six conditions on a box, ready to be bounded on any block of its cells."""
 
@@ -43,7 +55,7 @@ class Prover:
         self.grid = grid
         self._sides: dict[str, list[Side]] = {}
         self._whole: dict[str, Bernstein] = {}
-        for name in _ORDER:
+        for name in ORDER:
             sides = grid.places(conditions[name].squared)
             self._sides[name] = sides
             self._whole[name] = bernstein(conditions[name].polynomial, [side.ends for side in sides])
@@ -55,7 +67,7 @@ class Prover:
         ``positive`` (block, condition) tells which conditions are known to hold, and is completed.
         """
         verdicts = np.zeros(len(blocks), np.uint8)
-        for i, name in enumerate(_ORDER):
+        for i, name in enumerate(ORDER):
             open_ = np.flatnonzero(~positive[:, i] & (verdicts == UNDECIDED))
             step = max(1, _SIZE // self._whole[name].coefficients.size)
             for start in range(0, len(open_), step):
@@ -76,28 +88,33 @@ class Prover:
 
 
 def search(
-    prover: Prover, *, most_blocks: int = 1 << 62, progress: Callable[[float], None] | None = None
+    prover: Decides, *, most_blocks: int = 1 << 62, progress: Callable[[float], None] | None = None
 ) -> Decided:
     """Decide blocks, from the whole box down to single cells; at most ``most_blocks`` are looked at."""
     cells = prover.grid.cells
     blocks = np.array([[(0, number) for number in cells]])
-    positive = np.zeros((1, len(_ORDER)), bool)
+    positive = np.zeros((1, len(ORDER)), bool)
     done: list[Blocks] = []
     verdicts: list[NDArray[np.uint8]] = []
-    looked_at = 0
+    looked_at, halvings = 0, []
     while len(blocks):
         looked_at += len(blocks)
         found = prover.verdicts(blocks, positive)
         final = (found != UNDECIDED) | np.all(blocks[:, :, 1] - blocks[:, :, 0] == 1, axis=1)
         if looked_at >= most_blocks:
             final[:] = True
+        halvings.append(float(_sizes(blocks[found == UNDECIDED]).sum() / np.prod(cells, dtype=float)))
         done.append(blocks[final])
         verdicts.append(found[final])
         blocks, positive = _divided(blocks[~final], positive[~final])
         if progress:
-            left = np.prod(blocks[:, :, 1] - blocks[:, :, 0], axis=1).sum()
-            progress(1 - left / np.prod(cells, dtype=float))
-    return Decided(cells, np.concatenate(done), np.concatenate(verdicts))
+            progress(1 - _sizes(blocks).sum() / np.prod(cells, dtype=float))
+    return Decided(cells, np.concatenate(done), np.concatenate(verdicts), tuple(halvings))
+
+
+def _sizes(blocks: Blocks) -> NDArray[np.int64]:
+    """How many cells each block has."""
+    return np.prod(blocks[:, :, 1] - blocks[:, :, 0], axis=1)
 
 
 def _divided(blocks: Blocks, positive: NDArray[np.bool_]) -> tuple[Blocks, NDArray[np.bool_]]:

@@ -212,7 +212,7 @@ def _words(proof: Proof) -> str:
     lines = [
         heading(proof.bicycle, proof.model),
         f"box: {box}",
-        f"verdict: {record['verdict']}",
+        f"verdict: {record['verdict']}, by {record['method']}",
         f"proved stable    {100 * record['proved_stable']:8.4f} %",
         f"proved unstable  {100 * record['proved_unstable']:8.4f} %",
         f"undecided        {100 * record['undecided']:8.4f} %",
@@ -223,8 +223,10 @@ def _words(proof: Proof) -> str:
         grows = max(real for real, _ in point["eigenvalues"])
         lines.append(f"not stable at {where}, where it grows at {grows:.4g} 1/s")
     if record["undecided"]:
+        last = ", ".join(f"{100 * share:.3g}" for share in record["undecided_by_halving"][-3:])
         lines.append(
-            "twice as many --cells leave about half of what is undecided:\n  cells with the boundary in them"
+            f"undecided blocks from halving to halving: {last} %; twice as many --cells\n"
+            f"  leave about {50 * record['undecided']:.3g} %: cells with the boundary in them"
         )
     return "\n".join(lines)
 

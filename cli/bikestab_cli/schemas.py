@@ -222,9 +222,13 @@ SCHEMAS: dict[str, Schema] = {
             "a proof; one object without results", ("files",), bicycle=words("its name"), model=MODEL,
             delta=num("steering damping [kg m²/s]"), box=named(_PAIR, "the ends of what varies"),
             cells=some({"type": "integer"}, "along each"),
+            method={"enum": ["Bernstein coefficients", "centred form"], "description": "how it was proved"},
             verdict={"enum": ["stable", "unstable", "mixed", "undecided"], "description": "of the whole box"},
             proved_stable=num("fraction of the box"), proved_unstable=num("fraction"),
             undecided=num("fraction"),
+            undecided_by_halving=some(
+                num("share"), "of the cells before each halving of blocks, and at the end"
+            ),
             counterexample={"type": ["object", "null"], "description": "a point that is not as the rest"},
         ),
     },

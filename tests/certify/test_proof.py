@@ -13,12 +13,15 @@ from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle
 from bikestab.certify import checker
-from bikestab.certify.proof import prove
-from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE
+from bikestab.certify.centred import CentredProver
+from bikestab.certify.grid import grid_of
+from bikestab.certify.proof import BERNSTEIN, CENTRED, prove
+from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE, search
 from bikestab.errors import InputError
 from bikestab.formulas import table_formulas
 from bikestab.model import exact_table
 from bikestab.speeds import intervals_of
+from tests.references import verify_proofs
 from tests.strategies import machines
 
 PAPER, BENCHMARK = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -114,8 +117,10 @@ def test_tolerances_hold_for_every_machine_in_them():
         assert np.all(truth[verdicts == UNSTABLE] == 0)
     both = prove(BENCHMARK, lam[:2], sigma[:2], np.array([4.9, 5.1]), tolerances=ranges)
     assert both.verdict == "stable"
-    with pytest.raises(InputError, match="3 tolerances"):
-        prove(BENCHMARK, lam, sigma, V, tolerances={**ranges, "g": (9.7, 9.9)})
+    assert (proof.method, both.method) == (BERNSTEIN, CENTRED)
+    many = dict.fromkeys([name for name in BENCHMARK.given if name not in ("c", "lam")][:13], (0.1, 0.2))
+    with pytest.raises(InputError, match="13 tolerances"):
+        prove(BENCHMARK, lam, sigma, V, tolerances=many)
     with pytest.raises(InputError, match="mB"):
         prove(BENCHMARK, lam, sigma, V, tolerances={"mB": (-1.0, 2.0)})
 
@@ -261,3 +266,54 @@ def test_blocks_that_touch_the_boundary_nearly_are_checked_in_parts():
     certificate = json.loads(proof.certificate("1"))
     certificate["blocks"] = certificate["blocks"][::10]
     assert f"{len(certificate['blocks'])} blocks hold" in checker.check(sealed(certificate))
+
+
+@pytest.mark.parametrize(
+    ("bicycle", "share"), [(PAPER, 0.85), (BENCHMARK, 0.85), (Bicycle.preset("kooijman2011"), 0.4)]
+)
+def test_both_methods_agree(bicycle, share):
+    """The centred form knows nothing of Bernstein coefficients, and decides nearly as much.
+
+    Of point masses on skates less: the determinant of their inertias is a small difference.
+    """
+    edges = [np.linspace(*ends, 17) for ends in ((0.0, 0.4), (0.0, 0.15), (0.0, 10.0))]
+    proof = prove(bicycle, *edges)
+    grid = grid_of(edges)
+    cells = search(CentredProver(bicycle, (), "refined", grid)).on_cells()
+    assert not np.any((cells != proof.cells) & (cells != UNDECIDED) & (proof.cells != UNDECIDED))
+    decided = [np.count_nonzero(each != UNDECIDED) for each in (cells, proof.cells)]
+    assert share * decided[1] < decided[0] <= decided[1]
+
+
+def test_six_tolerances_by_the_centred_form():
+    given = BENCHMARK.given
+    names = ("mB", "xB", "zB", "IBxx", "mH", "IFyy")
+    ranges = {
+        name: (given[name] - abs(given[name]) / 500, given[name] + abs(given[name]) / 500) for name in names
+    }
+    design = np.full(2, BENCHMARK.lam), np.full(2, BENCHMARK.sigma)
+    proof = prove(BENCHMARK, *design, np.linspace(3, 8, 21), tolerances=ranges)
+    assert proof.method == CENTRED
+    assert set(proof.cells.ravel().tolist()) == {UNDECIDED, STABLE, UNSTABLE}
+    rng = np.random.default_rng(3)
+    for _ in range(10):
+        machine = BENCHMARK.replaced(
+            {name: rng.choice([*ends, rng.uniform(*ends)]) for name, ends in ranges.items()}
+        )
+        points, verdicts = points_of(proof, rng, 100)
+        truth = stable_at(machine, *points)
+        assert np.all(truth[verdicts == STABLE] == 1)
+        assert np.all(truth[verdicts == UNSTABLE] == 0)
+    certificate = json.loads(proof.certificate("1"))
+    certificate["blocks"] = certificate["blocks"][:3]
+    assert "hold" in checker.check(sealed(certificate))
+    with pytest.raises(InputError, match="feedback"):
+        prove(BENCHMARK.replaced({"k_phidot": 1.0}), *design, np.array([5.0, 6.0]))
+
+
+def test_a_sample_of_random_boxes_in_400_bits():
+    """``python -m tests.references.verify_proofs`` checks more; docs/trust.md has its counts."""
+    counts = verify_proofs.run(8, seed=5, designs=15, most=1)
+    assert counts["WRONG"] == counts["CERTIFICATES REFUSED"] == counts["CHANGED ONES TAKEN"] == 0
+    assert counts["points"] > 800
+    assert counts["certificates"] >= 6
