@@ -1,8 +1,8 @@
 """Check a certificate of stability, slowly and plainly: ``python checker.py FILE``.
 
 It shares nothing with the program that wrote it, nor its method. All numbers are fractions; the equations
-are those of Dikarev, Dikareva and Fufaev (1981), with sums over the rigid bodies. A block is right if it can
-be cut into parts, on which the conditions' values, slopes and products of slopes prove the verdict's signs.
+are those of Dikarev, Dikareva and Fufaev (1981), with sums over the bodies. A block is right if it can be cut
+into parts, on which values, slopes and products of slopes prove the signs of the conditions.
 """
 
 from __future__ import annotations
@@ -12,18 +12,19 @@ import itertools
 import json
 import sys
 from fractions import Fraction as F
+from functools import partial
 from math import factorial, inf, prod
 from pathlib import Path
 from typing import Any
 
-STABLE, UNSTABLE = 1, 2
-MOST_CELLS, MOST_VARIED, MOST_PARTS = 10**7, 12, 2000
+STABLE, UNSTABLE, MOST_CELLS, MOST_VARIED, MOST_PARTS = 1, 2, 10**7, 12, 1000
 # bodies behind, in front: mass, forward, up, Ixx, Izz, ∫ x h dm; what else there is; what is not used
 REAR = ["mR 0 rR IRxx IRxx 0", "mB xB -zB IBxx IBzz IBxz"]
 REAR += ["rider.m rider.x -rider.z rider.Ixx rider.Izz rider.Ixz"]
 FRONT, UNUSED = ["mH xH -zH IHxx IHzz IHxz", "mF w rF IFxx IFxx 0"], "c lam IByy IHyy rider.Iyy"
 FOUR = [REAR, FRONT, ["w g delta IRyy rR IFyy rF"], [UNUSED, "rider.inertia_mass"]]
 TWO = [["m1 l1 h1 A1 B1 D1"], ["m2 l2 h2 A2 B2 -D2"], ["c g delta C1 R1 C2 R2"], ["0"]]
+Box = list[tuple[F, F]]
 FIXED = "rider.inertia_mass"  # the mass at which a rider has the given inertia
 
 
@@ -44,8 +45,7 @@ class Near:
     def __mul__(self, other: Any) -> Near:
         if not isinstance(other, Near):
             return Near(self.middle * other, [x * other for x in self.slopes], self.rest * abs(other))
-        a, b = self.middle, other.middle
-        pairs = list(zip(self.slopes, other.slopes, strict=True))
+        a, b, pairs = self.middle, other.middle, list(zip(self.slopes, other.slopes, strict=True))
         squares = [x * y / 2 for x, y in pairs]  # of e² from 0 to 1
         rest = self.reach * other.reach - sum(map(abs, squares))
         rest += (abs(a) + self.reach) * other.rest + (abs(b) + other.reach + other.rest) * self.rest
@@ -61,8 +61,7 @@ class Near:
 def parts_of(n: dict[str, Near], names: list[list[str]]) -> list[list[list[Near]]]:
     """The numbers of the bodies behind and in front, and what else there is; no rider where none is."""
     signed = n | {f"-{name}": x * -1 for name, x in n.items()}
-    there = [[body.split() for body in part if body.split()[0] in n] for part in names[:3]]
-    parts = [[[signed[name] for name in body] for body in part] for part in there]
+    parts = [[[signed[x] for x in b.split()] for b in part if b.split()[0] in n] for part in names[:3]]
     if FIXED in n:
         parts[0][2][3:] = [n["rider.m"] * x * (1 / n[FIXED].middle) for x in parts[0][2][3:]]
     return parts
@@ -74,13 +73,11 @@ def conditions(n: dict[str, Near], box: list[Near], four: bool, refined: bool, d
     one, sin, cos, sigma, V = box
     v = V if damped else one  # else p1 and p3 are over V, and hurwitz3 over its square
     R1, R2 = (R if C.middle or C.reach else one for R, C in [(R1, C1), (R2, C2)])  # skates have none
-    # everything times R1 R2, so that C1° = C1/R1 and C2° = C2/R2 need no division
-    R, C1, C2, mu, zero = R1 * R2, C1 * R2, C2 * R1, sigma * cos, one * 0  # mu: c1/c
-    h = sum((m * up for m, _, up, *_ in rear + front), zero)
-    l_ = sum((m * x for m, x, *_ in rear + front), zero)
-    J1 = sum((m * up * up + xx for m, _, up, xx, *_ in rear + front), zero)
-    J2 = sum((m * x * x + zz for m, x, _, _, zz, _ in rear + front), zero)
-    J12 = sum((m * x * up + xz for m, x, up, _, _, xz in rear + front), zero)
+    R, C1, C2 = R1 * R2, C1 * R2, C2 * R1  # all is times R1 R2, so that C1/R1 and C2/R2 need no division
+    mu, zero, bodies = sigma * cos, one * 0, rear + front  # mu: c1/c
+    h, l_ = (sum((b[0] * b[i] for b in bodies), zero) for i in (2, 1))
+    moments = ((2, 2, 3), (1, 1, 4), (1, 2, 5))
+    J1, J2, J12 = (sum((b[0] * b[i] * b[j] + b[k] for b in bodies), zero) for i, j, k in moments)
     J = J3 = J4 = m2d = zero
     for m, x, up, xx, zz, xz in front:
         md = m * (d := up * sin + (x - c) * cos - mu * c)
@@ -92,13 +89,12 @@ def conditions(n: dict[str, Near], box: list[Near], four: bool, refined: bool, d
     a3 = cos * (R * J12 + c * C2) + mu * c * (R * h + spin)
     a4, a5 = R * c * g * S, cos * (R * h + spin)
     b0, b1 = R * c * (J + mu * J4 * 2 + mu * mu * J2), R * J4 * cos + R * mu * (c * turn + J2 * cos)
-    b2, b3 = cos * (R * turn + C2 * sin), R * c * g * S * sin
-    b4, b5, b6 = a2, c * (C2 * cos + mu * spin), a4
+    b2, b3, b5 = cos * (R * turn + C2 * sin), R * c * g * S * sin, c * (C2 * cos + mu * spin)
     turning = v * b1 + R * c * delta  # b1 V of (1.5), with its damping
-    p4, p3 = a0 * b0 - a2 * b4, a0 * turning + v * (a2 * b5 - a3 * b4)
-    p2 = V * V * (a0 * b2 + a3 * b5 - a5 * b4) - (a0 * b3 + a1 * b0 - a2 * b6 - a4 * b4)
-    p1 = V * V * v * a5 * b5 - (a1 * turning + v * (a4 * b5 - a3 * b6))
-    p0 = V * V * (a5 * b6 - a1 * b2) + (a1 * b3 - a4 * b6)
+    p4, p3 = a0 * b0 - a2 * a2, a0 * turning + v * (a2 * b5 - a3 * a2)
+    p2 = V * V * (a0 * b2 + a3 * b5 - a5 * a2) - (a0 * b3 + a1 * b0 - a2 * a4 - a4 * a2)
+    p1 = V * V * v * a5 * b5 - (a1 * turning + v * (a4 * b5 - a3 * a4))
+    p0 = V * V * (a5 * a4 - a1 * b2) + (a1 * b3 - a4 * a4)
     return [p0, p1, p2, p3, p4, p1 * (p2 * p3 - p4 * p1) - p0 * p3 * p3]
 
 
@@ -121,16 +117,16 @@ class Machine:
             raise Refuted(f"{FIXED} is zero, or more than {MOST_VARIED} are varied, or one of them twice")
         self.damped = bool(self.numbers["delta"]) or "delta" in self.varied
 
-    def conditions(self, box: list[tuple[F, F]]) -> list[Near]:
+    def conditions(self, box: Box) -> list[Near]:
         """The six conditions on a box of tan(λ/2), σ, V and what varies; e is ∓1 at ends of sides."""
 
         def along(axis: int, middle: F, slope: F = F(), rest: F = F()) -> Near:
             return Near(middle, [slope * (i == axis) for i in range(len(box))], rest)
 
-        spans = [((a + b) / 2, (b - a) / 2) for a, b in box]
-        (t, r), s = spans[0], 1 + spans[0][0] ** 2
-        parts = 2 * t / s, 2 * (1 - t * t) / s**2 * r, (1 - t * t) / s, -4 * t / s**2 * r
-        places = [F(round(x * 2**80), 2**80) for x in parts]
+        (t, r), *_ = spans = [((a + b) / 2, (b - a) / 2) for a, b in box]
+        s = 1 + t * t
+        values = 2 * t / s, 2 * (1 - t * t) / s**2 * r, (1 - t * t) / s, -4 * t / s**2 * r
+        places = [F(round(x * 2**80), 2**80) for x in values]
         sin = along(0, places[0], places[1], 3 * r * r / 2 + F(1, 2**80))  # |sin''| < 3, |cos''| ≤ 4, by t
         cos = along(0, places[2], places[3], 2 * r * r + F(1, 2**80))
         numbers = {key: along(0, a) for key, a in self.numbers.items()}
@@ -138,20 +134,25 @@ class Machine:
         variables = [along(0, F(1)), sin, cos, along(1, *spans[1]), along(2, *spans[2])]
         return conditions(numbers, variables, self.four, self.refined, self.damped)
 
-    def holds(self, box: list[tuple[F, F]], verdict: int) -> bool:
+    def holds(self, box: Box, verdict: int) -> bool:
         """Whether the conditions have the right signs on all parts of a box."""
         parts = [box]
         for part in parts:
             found = self.conditions(part)
-            if right(found, verdict):
-                continue
-            middle = [((a + b) / 2,) * 2 for a, b in part]
-            if len(parts) > MOST_PARTS or not right(self.conditions(middle), verdict):
-                return False
-            i = max(range(len(part)), key=lambda axis: abs(found[5].slopes[axis]))
-            low, high, m = *part[i], middle[i][0]
-            parts += [[*part[:i], half, *part[i + 1 :]] for half in ((low, m), (m, high))]
+            if not right(found, verdict):
+                middle = [((a + b) / 2,) * 2 for a, b in part]
+                if len(parts) > MOST_PARTS or not right(self.conditions(middle), verdict):
+                    return False
+                i = min(range(len(part)), key=partial(self.width, part, middle, found))
+                halves = (part[i][0], middle[i][0]), (middle[i][0], part[i][1])
+                parts += [[*part[:i], half, *part[i + 1 :]] for half in halves]
         return True
+
+    def width(self, part: Box, middle: Box, found: list[Near], i: int) -> F:
+        """How wide bounds not decided, now ``found``, would be with side i reduced to its middle."""
+        sides = self.conditions([*part[:i], middle[i], *part[i + 1 :]])
+        pairs = [(x, y) for x, y in zip(sides, found, strict=True) if not y.positive()]
+        return sum(((x.reach + x.rest) / (y.reach + y.rest or 1) for x, y in pairs), F())
 
 
 def right(found: list[Near], verdict: int) -> bool:

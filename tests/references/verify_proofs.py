@@ -108,7 +108,8 @@ def parameters(bicycle: Bicycle, values: dict[str, float]) -> dict[str, Any]:
         B = sum((b[4] + b[0] * (b[1] - x) ** 2 for b in bodies), arb(0))
         D = sum((b[5] + b[0] * (b[1] - x) * (b[2] - h) for b in bodies), arb(0))
         p |= {"m" + i: m, "l" + i: x, "h" + i: h, "A" + i: A, "B" + i: B, "D" + i: D if i == "1" else -D}
-    return p
+    still = [f"C{i}" for i, name in (("1", "IRyy"), ("2", "IFyy")) if not {**bicycle.bodies, **values}[name]]
+    return {**p, **dict.fromkeys(still, 0.0)}  # what never spins may be a skate, without a radius
 
 
 def within(edges: Any, cell: int, share: float) -> float:
