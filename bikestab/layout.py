@@ -35,6 +35,14 @@ LARGEST |= {f"boundary/{name}_edge": 1 for name in CONDITIONS}
 LARGEST |= {field.name: len(field.flags) - 1 for field in FIELDS.values() if field.flags}
 LARGEST |= {field.name: (1 << len(field.masks)) - 1 for field in FIELDS.values() if field.masks}
 
+CERTIFIED = ("undecided", "proved_stable", "proved_unstable")  # what cells between points are
+LARGEST["certified"] = len(CERTIFIED) - 1
+
+
+def cell_axis(name: str) -> str:
+    """The name of the axis of cells between values of an axis."""
+    return f"{name}_cell"
+
 
 def expected(
     fields: list[str], ensemble: bool, bounds: bool, axes: Axes = AXES, gradients: bool = False

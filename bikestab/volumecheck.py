@@ -30,6 +30,7 @@ from bikestab.layout import (
     MOST_INTERVALS,
     TEXTS,
     bicycle_of,
+    cell_axis,
     expected,
     grid_axes,
     machine_names,
@@ -64,6 +65,7 @@ def check_volume(path: Path) -> None:
         _check_grid(grid, numbers)
         lengths = {name: len(values) for name, values in (swept | grid).items()}
         _check_datasets(file, lengths, list(swept), axes)
+        _check_certified(file, grid, bool(swept))
         _check_numbers(file, prod(lengths.values()))
         _check_identity(file, texts, numbers, swept, grid)
 
@@ -132,6 +134,21 @@ def _check_datasets(file: h5py.File, lengths: dict[str, int], lead: list[str], g
     if lead:
         shape = tuple(lengths[axis] for axis in (*lead, "parameter"))
         _check_machines(dataset(file, "machine", np.float64, shape))
+
+
+def _check_certified(file: h5py.File, grid: dict[str, Floats], sweep: bool) -> None:
+    with reading("certified"):
+        if "certified" not in file:
+            return
+        if sweep or (*grid,) != AXES:
+            raise InputError("is there for a sweep, or for other axes than lam, sigma and V")
+    for name, values in grid.items():
+        edges = values if len(values) > 1 else np.repeat(values, 2)
+        if not np.array_equal(_coordinate(file, cell_axis(name)), 0.5 * (edges[:-1] + edges[1:])):
+            raise InputError(f"has not the middles between values of {name}", key=(cell_axis(name),))
+    data = dataset(file, "certified", np.uint8, tuple(max(1, len(x) - 1) for x in grid.values()))
+    with reading("certified"):
+        check_whole(data)
 
 
 def _counter(file: h5py.File, name: str) -> int:

@@ -24,7 +24,7 @@ def summary(volume: Volume) -> dict[str, Any]:
         "bicycle": volume.text("bicycle"),
         "model": volume.model,
         "delta": volume.bicycle.delta,
-        "fields": volume.fields,
+        "fields": [*volume.fields, *(["certified"] if "certified" in file else [])],
         "ensemble_samples": volume.samples,
         "points": prod(len(file[name]) for name in (*volume.swept, *volume.axes)),
         "stable_points": int(file.attrs["stable_points"]),

@@ -38,12 +38,13 @@ if TYPE_CHECKING:
     metavar="ADDRESS",
     help="Compute on a Dask cluster: tcp://HOST:PORT, or local:N processes. Needs the extra 'cluster'.",
 )
+@click.option("--certify", is_flag=True, help="Prove the cells between the points: the field 'certified'.")
 @click.option("--report", is_flag=True, help="Write report.html, an interactive page, beside the pictures.")
 @click.option("--quiet", is_flag=True, help="Tell nothing of the progress.")
 @json_option
 def command(
     configs: tuple[str, ...], overrides: tuple[str, ...], force: bool, jobs: int | None,
-    scheduler: str | None, report: bool, quiet: bool, as_json: bool,
+    scheduler: str | None, certify: bool, report: bool, quiet: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Evaluate grids; write volumes and pictures.
 
@@ -61,6 +62,7 @@ def command(
       bikestab scan configs/quick.yaml --set grid.V.num=61 --set output=out/fine
       bikestab scan configs/quick.yaml configs/meijaard2007.yaml --force --json
       bikestab scan configs/quick.yaml --jobs 2 --quiet
+      bikestab scan configs/quick.yaml --certify
     """
     if jobs and scheduler:
         raise click.UsageError("--jobs is for this machine, --scheduler for a cluster; give one of them")
@@ -74,6 +76,8 @@ def command(
             start = time.perf_counter()
             with of_file(name):
                 result, pictures = _run(name, config, force, jobs, scheduler or "", quiet)
+                if certify:
+                    _certify(name, config, result.path, quiet)
                 page = _page(result.path) if report else None
             done.append(_summary(name, config, result, pictures, page))
             if not as_json:
@@ -120,6 +124,18 @@ def _run(
                     hint = f"{name}: what is finished is kept; the same command goes on from there"
             raise KeyboardInterrupt(hint) from None
         return result, write_pictures(config, result.path, pictures(), partial(click.echo, err=True))
+
+
+def _certify(name: str, config: ScanConfig, volume: Path, quiet: bool) -> None:
+    from bikestab.certified import add_certified
+
+    with progress(f"{name}: proofs", quiet) as show:
+        denied = add_certified(
+            volume, config.machine, config.model, lambda share: show(int(1e6 * share), 10**6)
+        )
+    if denied:
+        text = f"{denied} cells stay undecided, since rounding makes 'stable' say otherwise at a corner"
+        click.echo(f"note: {name}: {text}", err=True)
 
 
 def _page(volume: Path) -> str:

@@ -195,7 +195,7 @@ def check_certificate(proof: Proof, rng: random.Random, counts: Counter[str], mo
             counts["changed ones refused"] += 1
 
 
-def run(boxes: int, seed: int, designs: int = 60, most: int = 2) -> Counter[str]:
+def run(boxes: int, seed: int, designs: int = 45, most: int = 1) -> Counter[str]:
     """Check so many boxes."""
     ctx.prec = BITS
     rng = random.Random(seed)
