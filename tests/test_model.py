@@ -131,9 +131,11 @@ def test_tiny_but_true_coefficient_is_kept(C1):
     assert (got != 0) == (C1 > 0)
 
 
-def test_nearly_singular_inertias_keep_their_digits():
+@pytest.mark.parametrize("metre", [1, 1000])
+def test_nearly_singular_inertias_keep_their_digits(metre):
     """Two point masses beside a design where both turn about one axis: p4 is 1e-8 of its terms."""
-    bicycle = Bicycle.from_mapping(TWO_MASS_SKATE)
+    lengths = {name: metre * TWO_MASS_SKATE[name] for name in ("w", "xB", "zB", "xH", "zH")}
+    bicycle = Bicycle.from_mapping(TWO_MASS_SKATE | lengths)
     sigma = np.array([0.05, 0.1411, 0.2])
     p4 = characteristic_table(bicycle, 0.3, sigma)[4, 0]
     np.testing.assert_allclose(p4, exact_table(bicycle, 0.3, sigma).value[4, 0], rtol=1e-11)

@@ -9,7 +9,7 @@ from numpy.polynomial.polynomial import polyfromroots
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
-from bikestab.roots import positive_roots, sign_near_zero
+from bikestab.roots import _bounds, _exponent_above, positive_roots, sign_near_zero
 from bikestab.routh import condition_polynomials
 from tests.references.generate_speeds import roots
 
@@ -182,3 +182,22 @@ def test_a_search_that_newton_alone_would_never_end():
     real = np.roots(poly[::-1])
     real = np.sort(real.real[(np.abs(real.imag) < 1e-9) & (real.real > 0)])
     np.testing.assert_allclose(mine[np.isfinite(mine)], real, rtol=1e-9)
+
+
+@pytest.mark.parametrize("degree", range(1, 7))
+def test_bounds_are_not_far_from_the_roots(degree):
+    """Fujiwara's is at most 2/(2^(1/n) − 1) times the largest root, 17; from exponents four times that."""
+    rng = np.random.default_rng(degree)
+    x = (
+        rng.choice([-1.0, 1.0], (degree, 50))
+        * 10 ** rng.uniform(-3, 3, 50)
+        * rng.uniform(0.3, 3, (degree, 50))
+    )
+    c = np.zeros((8, 50))
+    c[: degree + 1] = np.transpose([polyfromroots(each) for each in x.T])
+    low, high = np.abs(x).min(axis=0), np.abs(x).max(axis=0)
+    above = 2.0 ** _exponent_above(c)
+    assert np.all((high < above) & (above < 70 * high))
+    least, most = _bounds(c)
+    assert np.all((high < most) & (most < 35 * high))
+    assert np.all((low > least) & (least > low / 35))
