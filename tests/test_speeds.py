@@ -178,12 +178,21 @@ def test_touching_weave_is_no_edge():
     assert tuples_of(touching) == [(pytest.approx(1 / math.sqrt(3)), np.inf, CAPSIZE, UNBOUNDED)]
 
 
+@pytest.mark.parametrize("power", [1, 2, 3])
 @pytest.mark.parametrize("k", [1, 2, 3, 4])
-def test_the_sign_of_a_coefficient_that_cancels_is_not_certain(k):
-    """1 − V/3 at V = 3; beside a certain p1 or p2 the other of them need not be."""
-    table = table_of({(j, 0): 1.0 for j in range(1, 5)} | {(k, 1): -1 / 3}, (1,))
+def test_the_sign_of_a_coefficient_that_cancels_is_not_certain(k, power):
+    """1 − (V/3)^j at V = 3; beside a certain p1 or p2 the other of them need not be."""
+    table = table_of({(j, 0): 1.0 for j in range(1, 5)} | {(k, power): -(3.0**-power)}, (1,))
     stable, certain = _others_positive(cells_of(table), np.array([0]), np.array([3.0]))
     assert (stable.item(), certain.item()) == (k < 3, k < 3)
+
+
+def test_an_ordinary_answer_is_certain_and_has_narrow_bounds():
+    bicycle = Bicycle.preset("dikarev1981")
+    found = intervals_of(characteristic_table(bicycle, 0.2, 0.08))
+    assert found.marginal == 0
+    assert 0 < found.V1_error[0] < 1e-14
+    assert 0 < found.V2_error[0] < 1e-14
 
 
 def test_root_of_hurwitz3_that_is_no_edge():
