@@ -27,12 +27,14 @@ def away_from_surface(family, ends, mesh):
     for kind in np.unique(mesh.kind):
         points = mesh.points[np.unique(mesh.triangles[mesh.kind == kind])]
         names = NAMES.values() if kind == NONE else [NAMES[kind]]
-        away = np.min([_away(family, ends, points, name) for name in names], axis=0)
+        away = np.min([away_of(family, ends, points, name) for name in names], axis=0)
         worst = max(worst, away.max(initial=0))
     return worst
 
 
-def _away(family, ends, points, name):
+def away_of(family, ends, points, name):
+    """|f| / |∇f| of points (point, 3) for a condition f, in units of the box."""
+
     def value(points):
         return getattr(conditions(family.table(*points[:, :2].T), points[:, 2]), name)
 

@@ -93,11 +93,14 @@ class Columns:
         self.V = np.concatenate([known, new], axis=1)
         self.place = np.concatenate([self.place, places[:, first]], axis=1)
 
-    def alike(self, point: int, record: int, structure: int, most: float, *, beside: bool) -> Floats:
+    def alike(
+        self, point: int, record: int, structure: int, most: float, *, beside: bool, any_kind: bool
+    ) -> Floats:
         """The ends (2, interval) over a point nearest to a record's and of their kinds; NaN where too far.
 
         They may be ``most`` [m/s] away, or be on the same face of the box. Where there is none and the point
         is ``beside`` that of the record, it is the face that one of both is on and the other near to.
+        With ``any_kind`` the nearest of all.
         """
         mine = self.record[point][self.record[point] >= 0]
         codes = self.codes[self.record[point] >= 0]
@@ -110,6 +113,7 @@ class Columns:
                 kind = kind_of(self.codes[structure], k, side)
                 gap = np.abs(own - V[side, k])
                 alike = (kinds == kind) & (gap <= (0.0 if kind == NONE else most))
+                alike |= any_kind & (gap <= most)
                 on_face = beside & ((kinds == NONE) | (kind == NONE)) & (gap <= most)
                 if alike.any():
                     V[side, k] = own[np.argmin(np.where(alike, gap, np.inf))]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bikestab.family import Family
 from bikestab.model import Floats
-from bikestab.region.curves import trace
+from bikestab.region.curves import leaving, trace
 from bikestab.region.events import Box
 from bikestab.region.heights import Heights, heights
 from bikestab.region.partition import partitioned
@@ -66,8 +66,9 @@ def region_mesh(
     no traced curve is not seen.
     """
     box = Box(family, np.array([x, y], dtype=float), V)
-    curves = trace(family, x, y, V, samples=_TRACED * cells + 1)
-    plane = partitioned(box, *triangulated(box, curves, cells))
+    samples = _TRACED * cells + 1
+    curves, lines = trace(family, x, y, V, samples=samples), leaving(box, samples=samples)
+    plane = partitioned(box, *triangulated(box, curves, lines, cells))
     high = heights(box, plane)
     faces = shell(box, plane, high)
     corners, height = parted(faces.corners)

@@ -14,11 +14,13 @@ from bikestab.model import Floats
 from bikestab.region.columns import Columns, Ends, ends_at, number_of
 from bikestab.region.events import Box
 from bikestab.region.patches import Partition
+from bikestab.region.slivers import borrowed
 from bikestab.region.triangulation import Index, sides_of, split
 
 _BESIDE = 1e-12  # of the box: so close to a point that its column is that at the point
 _SAME = 1e-10  # of the box: points so close are one
 _SMALL = 1e-9  # of the box: triangles and sides that are not cut any more
+_LONG = 1e-2  # of the box: sides across stripes, which are narrower than the distance of traced points
 _TOUCH = 1e-4  # of the box's speeds: so close, ends over a point on a curve meet there
 _HALVINGS = 48  # of a side, to find where its structure changes: to rounding
 _AT_ONCE = 1024  # designs: fewer take as long
@@ -47,23 +49,39 @@ def _settle(box: Box, plane: Partition) -> None:
     """Give all triangles a structure, cutting those that pass from one into another."""
     for number in range(_ROUNDS[0] + 1):
         rest = np.flatnonzero(plane.structure < 0)
-        structure, good = _structures(box, plane, plane.triangles[rest])
-        plane.structure[rest[good]] = structure[good]
-        rest = rest[~good]
-        if not len(rest):
-            return
         triangles = plane.triangles[rest]
         sides, which = sides_of(triangles)
         length = plane.length(sides)
-        open_ = (length > _SMALL) & ~plane.share(sides)
+        structure, good = _structures(box, plane, triangles)
+        open_ = (length > _SMALL) & ~_uniform(box, plane, sides)
+        good &= ~np.logical_or.reduce(open_[which], axis=1)
+        plane.structure[rest[good]] = structure[good]
+        if good.all():
+            return
+        rest, triangles, which = rest[~good], triangles[~good], which[~good]
         if open_.any() and number < _ROUNDS[0]:
             _cut(plane, sides[open_], _crossings(box, plane, sides[open_]))
             continue
         long = length[which].max(axis=1)
         wide = (plane.area(triangles) > _SMALL * long) & (number < _ROUNDS[0])
         for i in np.flatnonzero(~wide):
-            plane.structure[rest[i]] = _borrowed(box, plane, triangles[i])
+            plane.structure[rest[i]] = borrowed(box, plane, triangles[i], _SMALL)
         _cut_inside(box, plane, rest[wide])
+
+
+def _uniform(box: Box, plane: Partition, sides: Index) -> NDArray[np.bool_]:
+    """Whether sides (n, 2) have a structure that both ends have, and so has the middle of long ones.
+
+    It is looked at between two curves, where one structure is in common: with several it is a chord of one.
+    """
+    has, codes = plane.columns.has()[sides], plane.columns.codes
+    common, curves = np.logical_and.reduce(has, axis=1), np.count_nonzero(has, axis=2) > 1
+    number = np.count_nonzero(common, axis=1)
+    between = (number == 1) & np.logical_and.reduce(curves, axis=1) & (plane.length(sides) > _LONG)
+    found, looked = number > 0, np.flatnonzero(between)
+    middle = ends_at(box, plane.points[:, sides[looked]].mean(axis=2))
+    found[looked] = codes[np.argmax(common[looked], axis=1)] == middle.code
+    return found
 
 
 def _cut_inside(box: Box, plane: Partition, chosen: Index) -> None:
@@ -117,8 +135,8 @@ def _crossings(box: Box, plane: Partition, sides: Index) -> Index:
     A side may need more than one, then the rest follows in the next round.
     """
     number = np.full(len(sides), -1)
-    code, shared = _looked(box, plane, sides)
-    open_ = np.flatnonzero(~shared)
+    code = _looked(box, plane, sides)
+    open_ = np.flatnonzero(~_uniform(box, plane, sides))
     # between two curves the middle: their crossing is reached by halving, not by steps from curve to curve
     both = (np.count_nonzero(plane.columns.has()[sides[open_]], axis=2) > 1).all(axis=1)
     number[open_[both]] = _middles(box, plane, sides[open_[both]])
@@ -136,10 +154,10 @@ def _crossings(box: Box, plane: Partition, sides: Index) -> Index:
     return number
 
 
-def _looked(box: Box, plane: Partition, sides: Index) -> tuple[Index, NDArray[np.bool_]]:
+def _looked(box: Box, plane: Partition, sides: Index) -> NDArray[np.int64]:
     """Note the structures just beside both ends of sides (n, 2), until they have one in common.
 
-    Returns the last one seen at each first end, and whether the ends now have.
+    Returns the last one seen at each first end.
     """
     start, goal = plane.points[:, sides.T].swapaxes(0, 1)
     way = (goal - start) / np.hypot(*(goal - start))
@@ -156,7 +174,7 @@ def _looked(box: Box, plane: Partition, sides: Index) -> tuple[Index, NDArray[np
                 sides[still, j], Ends(V[:, i + j, still], codes[i + j, still]), places[i + j][:, still]
             )
         shared = plane.share(sides)
-    return codes[2], shared
+    return codes[2]
 
 
 def _change(box: Box, code: Index, start: Floats, way: Floats, t: Floats) -> tuple[Floats, Floats]:
@@ -191,30 +209,6 @@ def _structures(box: Box, plane: Partition, triangles: Index) -> tuple[Index, ND
     good[several] = fits.any(axis=1)
     structure[several[good[several]]] = np.argmax(fits, axis=1)[good[several]]
     return structure, good
-
-
-def _borrowed(box: Box, plane: Partition, triangle: Index) -> int:
-    """The structure of a triangle too narrow to be cut: of some corners, where the others have such ends too.
-
-    Of those that do, the one with most intervals; else the one without any.
-    """
-    columns = plane.columns
-    has = columns.has()[triangle]
-    candidates = np.flatnonzero(has.any(axis=0))
-    for structure in candidates[np.argsort(-number_of(columns.codes[candidates]), kind="stable")]:
-        lenders, others = np.flatnonzero(has[:, structure]), np.flatnonzero(~has[:, structure])
-        found = []
-        for corner in others:
-            away = plane.length(np.column_stack([triangle[lenders], np.full(len(lenders), triangle[corner])]))
-            record = columns.record[triangle[lenders[np.argmin(away)]], structure]
-            near, beside = 0.02 * (box.V[1] - box.V[0]), bool(away.min() < _SMALL)
-            found.append(columns.alike(triangle[corner], record, structure, near, beside=beside))
-        V = np.array(found).reshape(len(others), 2, columns.V.shape[2]).swapaxes(0, 1)
-        if np.isfinite(V).all():
-            code = np.full(len(others), columns.codes[structure])
-            columns.add(triangle[others], Ends(V, code), plane.points[:, triangle[others]])
-            return int(structure)
-    return int(columns.structure(np.zeros(1, np.int64))[0])
 
 
 def _part(box: Box, plane: Partition) -> bool:

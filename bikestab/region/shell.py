@@ -43,20 +43,22 @@ class Faces(NamedTuple):
 
 def shell(box: Box, plane: Partition, high: Heights) -> Faces:
     """The boundary of the solid, open only where it goes on beyond the box."""
-    parts = [*_sheets(plane, high), *_walls(box, plane, high)]
+    parts = [*_sheets(box, plane, high), *_walls(box, plane, high)]
     return _without_pairs(Faces(*(np.concatenate(values) for values in zip(*parts, strict=True))))
 
 
-def _sheets(plane: Partition, high: Heights) -> list[Faces]:
+def _sheets(box: Box, plane: Partition, high: Heights) -> list[Faces]:
+    """The ends of the prisms, but for those in a face of the box."""
     columns = plane.columns
     code = columns.codes[plane.structure]
     parts = []
     for k in range(columns.V.shape[2]):
         for side in (LOWER, UPPER):
             kind = kind_of(code, k, side)
-            row = np.flatnonzero(kind != NONE)
-            corners = plane.triangles[row]
-            ids = high.at[side, columns.record[corners, plane.structure[row, np.newaxis]], k]
+            row = np.flatnonzero(number_of(code) > k)
+            ids = high.at[side, columns.record[plane.triangles[row], plane.structure[row, np.newaxis]], k]
+            sheet = (kind[row] != NONE) | (high.V[ids] != box.V[side]).any(axis=1)
+            row, ids = row[sheet], ids[sheet]
             parts.append(Faces(ids if side else ids[:, ::-1], kind[row], np.full(len(row), side)))
     return parts
 

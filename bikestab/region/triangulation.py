@@ -17,13 +17,15 @@ _LAYERS = np.array([1, 4, 9, 16]) / 16  # of a cell, beside a fold, where V goes
 _FLAT = 1e-14  # area of a triangle, in boxes, that Delaunay's method makes of points on one line
 
 
-def triangulated(box: Box, curves: Sequence[Curve], cells: int) -> tuple[Floats, Index, int]:
+def triangulated(
+    box: Box, curves: Sequence[Curve], lines: Sequence[Floats], cells: int
+) -> tuple[Floats, Index, int]:
     """Points (2, point) in units of the box and triangles (triangle, 3) of them, anticlockwise.
 
-    There are ``cells`` triangles along each side; the first points are those of the curves, as many as the
-    third result tells.
+    There are ``cells`` triangles along each side; the first points are those of the curves and lines
+    (2, point), as many as the third result tells.
     """
-    traced, others = _points(box, curves, 1 / cells)
+    traced, others = _points(box, curves, lines, 1 / cells)
     points = np.concatenate([traced, others], axis=1)
     triangles: Index = Delaunay(points.T).simplices.astype(np.intp)
     a, b, c = points[:, triangles.T].swapaxes(0, 1)
@@ -32,8 +34,8 @@ def triangulated(box: Box, curves: Sequence[Curve], cells: int) -> tuple[Floats,
     return points, triangles[np.abs(area) > _FLAT], traced.shape[1]
 
 
-def _points(box: Box, curves: Sequence[Curve], step: float) -> tuple[Floats, Floats]:
-    """Points of the curves, and of a triangular grid with layers beside folds, none close to another.
+def _points(box: Box, curves: Sequence[Curve], lines: Sequence[Floats], step: float) -> tuple[Floats, Floats]:
+    """Points of curves and lines, and of a triangular grid with layers beside folds, none close to another.
 
     o   o   o   o
       o  : : : .o     o the grid, x a fold, : its layers
@@ -41,7 +43,7 @@ def _points(box: Box, curves: Sequence[Curve], step: float) -> tuple[Floats, Flo
       o : : : : o
     """
     low, high = box.ends.T[..., np.newaxis]
-    chosen, layers = [np.empty((2, 0))], [np.empty((2, 0))]
+    chosen, layers = [np.empty((2, 0)), *lines], [np.empty((2, 0))]
     for curve in curves:
         points = (np.array([curve.x, curve.y]) - low) / (high - low)
         chosen.append(points)

@@ -13,8 +13,8 @@ from bikestab.region.curves import trace
 from bikestab.region.events import Box
 from bikestab.region.mesh import region_mesh
 from bikestab.routh import condition, conditions, stable
-from bikestab.speeds import CAPSIZE, NONE, WEAVE, critical_speeds, intervals_of
-from tests.meshes import away_from_surface, open_edges
+from bikestab.speeds import CAPSIZE, WEAVE, critical_speeds, intervals_of
+from tests.meshes import away_from_surface, away_of, open_edges
 from tests.references.verify_meshes import pairs
 from tests.strategies import machines
 
@@ -102,7 +102,9 @@ def test_the_outside_is_unstable(case):
     """Upwards from an upper sheet, downwards from a lower one, which is where the corners' order points."""
     bicycle, ends, mesh = case
     a, b, c = mesh.points[mesh.triangles].swapaxes(0, 1)
-    assert np.all(np.cross(b - a, c - a)[:, 2] * np.where(mesh.upper, 1, -1) >= 0)
+    # but for triangles that are as narrow as their corners are rounded
+    rounding = np.finfo(float).eps * np.prod(np.ptp(ends[:2], axis=1))
+    assert np.all(np.cross(b - a, c - a)[:, 2] * np.where(mesh.upper, 1, -1) >= -rounding)
     for outwards in (1, -1):
         shared = np.intersect1d(mesh.triangles[mesh.upper], mesh.triangles[~mesh.upper])
         points = mesh.points[np.setdiff1d(mesh.triangles[mesh.upper == (outwards > 0)], shared)]
@@ -125,7 +127,9 @@ def test_sheets_are_the_ends_of_the_intervals(case):
         found = intervals_of(Family(bicycle).table(points[:, 0], points[:, 1]))
         gap = np.nanmin(np.abs((found.V2 if upper else found.V1) - points[:, 2:]), axis=1)
         assert np.mean(gap == 0) > 0.9  # the others are on a curve where two sheets change places
-        assert gap.max() < 1e-6
+        # or where an interval has just closed: there both conditions are zero
+        both = np.max([away_of(Family(bicycle), ends, points, name) for name in ("p0", "hurwitz3")], axis=0)
+        assert gap[both > 1e-14].max() < 1e-6
 
 
 def test_the_rim_is_the_skeleton(case):
@@ -199,15 +203,8 @@ def test_a_vertical_wall():
 def test_both_kinds_are_there():
     mesh = region_mesh(*family_case("1981 unbounded"), cells=30)
     assert set(mesh.kind[~mesh.wall]) == {WEAVE, CAPSIZE}
-    # where weave comes in through V = 20 on the chord of a curve at which capsize and weave meet, walls close
-    # an interval that ends there: lower than 1e-5 of the box, of corners that lie on either surface
-    walls = mesh.points[mesh.triangles[mesh.wall & (mesh.kind == NONE)]]
-    assert np.ptp(walls[..., 2], axis=1).max(initial=0) < 1e-5 * 19
-    roots = critical_speeds(characteristic_table(DIKAREV, walls[..., 0], walls[..., 1]))
-    for name in ("p0", "hurwitz3"):
-        assert np.nanmin(np.abs(roots[name] - walls[..., 2]), axis=0).max(initial=0) < 1e-8 * 19
-    # the others stand on the weave surface where it folds back within a cell
-    assert set(mesh.kind[mesh.wall]) <= {WEAVE, NONE}
+    # walls stand on the weave surface where it folds back within a cell
+    assert set(mesh.kind[mesh.wall]) <= {WEAVE}
     top = mesh.points[:, 2] == 20.0
     assert top.any()
     assert not np.any(np.isinf(mesh.points))
@@ -218,6 +215,19 @@ def test_four_structures_meet_at_a_point():
     family, ends = next(islice(pairs(200, seed=1), 199, None))
     mesh = region_mesh(family, *ends, cells=20)
     assert len(mesh.triangles) > 1000
+    assert open_edges(mesh, ends) == 0
+    assert away_from_surface(family, ends, mesh) < 1e-9
+
+
+@pytest.mark.parametrize("number", [30, 206])
+def test_surfaces_meet_at_a_face(number):
+    """Stripes narrower than a cell between weave and capsize, both of which leave through faces of the box.
+
+    Number 206 has a wedge of two intervals that meets one of them.
+    """
+    family, ends = next(islice(pairs(320, seed=1), number, None))
+    mesh = region_mesh(family, *ends, cells=20)
+    assert len(mesh.triangles) > 300
     assert open_edges(mesh, ends) == 0
     assert away_from_surface(family, ends, mesh) < 1e-9
 
