@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from numbers import Real
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from bikestab.errors import InputError, nearest
 
@@ -62,6 +62,50 @@ def quantity(value: object, units: Units, *, key: tuple[str | int, ...] = ()) ->
     return number
 
 
+def united(values: Sequence[Any]) -> list[Any]:
+    """The same with numbers of no unit in that of the others, as the 40 of ``40:80mm``.
+
+    InputError for numbers of no unit beside two that differ. What is no number stays as it is.
+    """
+    units = {unit: value for value in values if (unit := _unit_of(value))}
+    bare = [_unit_of(value) == "" and float(value) != 0 for value in values]  # zero is zero in all
+    if not any(bare) or not units:
+        return list(values)
+    if len(units) > 1:
+        first = values[bare.index(True)]
+        problem = f"{shown(first)} has no unit, and others beside it have {' and '.join(units)}"
+        raise InputError(problem, hint=f"write {first}{next(iter(units))}, or the unit that is meant")
+    unit = next(iter(units))
+    return [f"{value} {unit}" if alone else value for value, alone in zip(values, bare, strict=True)]
+
+
+def in_its_unit(text: str) -> float | None:
+    """The number in SI units, whichever unit it has; None for what is no number with a unit."""
+    number, unit = _NUMBER.match(text.strip()), _unit_of(text)
+    sizes = [units[unit] for units in _DIMENSIONS.values() if unit in units] if unit else []
+    return _times(number[0], sizes[0]) if number and sizes else None
+
+
+def dimension_of(text: str) -> str:
+    """What a number is by its unit, as ``a length``; empty for one without a unit that is known."""
+    unit = _unit_of(text)
+    return next((name for name, units in _DIMENSIONS.items() if unit and unit in units), "")
+
+
+def _unit_of(value: object) -> str | None:
+    """The unit that a number is written with, empty for none; None for what is no number."""
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return ""
+    if not isinstance(value, str) or not (number := _NUMBER.match(value.strip())):
+        return None
+    unit = _spelled(value.strip()[number.end() :].strip())
+    return unit if not unit or any(unit in units for units in _DIMENSIONS.values()) else None
+
+
+def _spelled(unit: str) -> str:
+    return " ".join(re.split(r"[\s*·]+", unit.replace("**", "^"))).replace("^", "").replace("2", "²")
+
+
 def units_in(meaning: str) -> Units:
     """The units of what is described with its SI unit in brackets at the end, such as ``wheelbase [m]``."""
     symbol = meaning.rpartition("[")[2].rstrip("]")
@@ -87,7 +131,7 @@ def _read(text: str, units: Units, key: tuple[str | int, ...]) -> float | str:
     written = text[number.end() :].strip()
     if not written:
         return float(number[0])
-    unit = " ".join(re.split(r"[\s*·]+", written.replace("**", "^"))).replace("^", "").replace("2", "²")
+    unit = _spelled(written)
     if unit in units:
         return _times(number[0], units[unit])
     if _COMMA.fullmatch(text):

@@ -19,6 +19,7 @@ from bikestab.units import (
     PURE,
     SPEED,
     quantity,
+    united,
     units_in,
 )
 
@@ -204,3 +205,23 @@ def test_a_long_value_is_quoted_short():
     with pytest.raises(InputError) as caught:
         quantity("spam " * 100, PURE)
     assert len(str(caught.value).splitlines()[0]) < 90
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        (["40", "80mm"], ["40 mm", "80mm"]),
+        ([0.05, "80 mm", 1], ["0.05 mm", "80 mm", "1 mm"]),
+        (["0", "5cm", "60mm"], ["0", "5cm", "60mm"]),
+        ([1, 2.5], [1, 2.5]),
+        (["5cm", "60mm"], ["5cm", "60mm"]),
+        ([True, "x", None, "5 ells"], [True, "x", None, "5 ells"]),
+    ],
+)
+def test_numbers_without_a_unit_have_that_of_the_others(values, expected):
+    assert united(values) == expected
+
+
+def test_which_unit_is_not_guessed():
+    with pytest.raises(InputError, match="'50' has no unit, and others beside it have cm and mm"):
+        united(["5cm", "60mm", "50"])

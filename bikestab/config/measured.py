@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bikestab.bicycle import Bicycle
+from bikestab.config.oneunit import one_unit
 from bikestab.config.values import in_si, json_schema, mistake
 from bikestab.config.variation import VARIED
 from bikestab.errors import InputError, nearest
@@ -110,6 +111,7 @@ def _axis(axis: Any, name: str, bicycle: Bicycle) -> Any:
     if not isinstance(axis, Mapping):
         return axis
     turned = name == "head_angle"  # the steepest is the least tilted
+    axis = one_unit(axis)
     found = dict(axis)
     ends = {end: converted(axis[end], (end,)) for end in ("start", "stop") if end in axis}
     if ends:

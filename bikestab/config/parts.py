@@ -16,6 +16,7 @@ from pydantic import (
 )
 
 from bikestab.config.measured import also_measured, also_measured_axes
+from bikestab.config.oneunit import one_unit
 from bikestab.config.tolerance import Within
 from bikestab.config.values import (
     ABSENT,
@@ -73,7 +74,7 @@ def _with_units(axis: str) -> BeforeValidator:
         plain = ("name", "num")
         return {
             key: value if key in plain else in_si(value, VARIED[name], ("grid", axis, key))
-            for key, value in given.items()
+            for key, value in one_unit(given).items()
         }
 
     return BeforeValidator(validate)

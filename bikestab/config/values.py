@@ -19,19 +19,15 @@ from pydantic import (
     WithJsonSchema,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
 
+from bikestab.config.oneunit import in_one_unit, one_unit
+from bikestab.config.oneunit import mistake as mistake
 from bikestab.errors import InputError
 from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.model import Floats
 from bikestab.units import ANGLE, DAMPING, PURE, SPEED, Units, quantity, units_in
 
 ABSENT: Any = None  # a key that may be missing, while null would be no number
-
-
-def mistake(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> PydanticCustomError:
-    """What a validator raises; ``key`` is a whole path, and needed only where pydantic's own is not it."""
-    return PydanticCustomError("bikestab", "{problem}", {"problem": problem, "hint": hint, "key": key})
 
 
 def _reads(units: Units, check: str = "") -> BeforeValidator:
@@ -82,9 +78,14 @@ _ANY_UNIT = {"type": "string", "pattern": r"^\s*[-+.\d][-+.\deE]*\s*([^-+.\d\s].
 def in_si(value: Any, meaning: str, key: tuple[str | int, ...]) -> Any:
     """The same with every text that stands for a number of the unit in ``meaning`` as that number."""
     if isinstance(value, dict):
-        return {name: in_si(inner, meaning, (*key, name)) for name, inner in value.items()}
+        return {
+            name: [in_si(x, meaning, (*key, name, i)) for i, x in enumerate(inner)]
+            if name == "lognormal" and isinstance(inner, list)  # of which the second is the logarithm's
+            else in_si(inner, meaning, (*key, name))
+            for name, inner in one_unit(value).items()
+        }
     if isinstance(value, (list, tuple)):
-        return [in_si(inner, meaning, (*key, i)) for i, inner in enumerate(value)]
+        return [in_si(inner, meaning, (*key, i)) for i, inner in enumerate(in_one_unit(value, key))]
     if not isinstance(value, str):
         return value
     try:
@@ -126,6 +127,8 @@ class Range(Strict, Generic[T]):
     stop: T
     num: Annotated[int, Field(ge=2, strict=True, description="number of values")]
 
+    _units = model_validator(mode="before")(one_unit)
+
     @model_validator(mode="after")
     def _ordered(self) -> Range[T]:
         if not self.stop > self.start:  # type: ignore[operator]  # both are floats
@@ -147,6 +150,8 @@ class Values(Strict, Generic[T]):
     """Values of one's own choice."""
 
     values: Annotated[list[T], Field(min_length=1)]
+
+    _units = model_validator(mode="before")(one_unit)
 
     @model_validator(mode="after")
     def _ordered(self) -> Values[T]:

@@ -15,6 +15,7 @@ import numpy as np
 from bikestab.errors import InputError
 from bikestab.formats.found import Found
 from bikestab.notation import MEASURED
+from bikestab.units import in_its_unit
 
 _STANDING = {"R", *MEASURED}
 _STEP = 1e-6  # of a value: the error of central differences is of its square
@@ -59,7 +60,8 @@ def carried(found: Found, parameters: Parameters) -> Found:
 
 def _slopes(values: Mapping[Any, Any], key: str, parameters: Parameters) -> dict[str, float]:
     """Derivatives of the parameters by what stands at a key."""
-    value = float(values[key])
+    own = values[key]
+    value = float(in_its_unit(own) or 0.0) if isinstance(own, str) else float(own)
     step = _STEP * max(abs(value), 1e-3)
     above, below = value + step, value - step
     high, low = (parameters({**values, key: x}) for x in (above, below))

@@ -14,7 +14,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from bikestab.errors import InputError
-from bikestab.units import shown
+from bikestab.units import dimension_of, in_its_unit, shown, united
 
 _KEY = re.compile(r"[A-Za-z_][\w.]*")
 _PLUS_MINUS = re.compile(r"\+/-|\+-|±")
@@ -139,11 +139,15 @@ def _measured(text: str, key: str) -> tuple[float | str, float]:
         return (parts[0] if value is None else value), 0.0
     deviation = _number(parts[1])
     if value is None or deviation is None:
-        raise InputError(f"{shown(text)} is not two numbers", key=(key,), hint=_EXAMPLE)
+        both = united(parts)
+        value, deviation = map(in_its_unit, both)
+        if value is None or deviation is None or dimension_of(both[0]) != dimension_of(both[1]):
+            raise InputError(f"{shown(text)} is not two numbers", key=(key,), hint=_EXAMPLE)
+        parts = both
     if not (math.isfinite(value) and 0 <= deviation < math.inf):
         hint = "allowed: a finite number +/- a finite one that is not negative"
         raise InputError(f"{shown(text)} is not a measured value", key=(key,), hint=hint)
-    return value, deviation
+    return (value if _number(parts[0]) is not None else parts[0]), deviation
 
 
 def _number(text: str) -> float | None:

@@ -25,7 +25,7 @@ from bikestab_cli.parameters import parameter
 from bikestab_cli.progress import progress
 
 from bikestab.errors import InputError
-from bikestab.units import DAMPING
+from bikestab.units import DAMPING, united
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -196,7 +196,7 @@ def _tolerance(text: str, bicycle: Bicycle) -> tuple[str, Ends]:
         problem = f"{bicycle.name} has no parameter {name!r} that can vary; {nearest(name, sorted(allowed))}"
         raise click.BadParameter(problem, param_hint="--tolerance")
     try:
-        x, d = parameter(name, middle), parameter(name, half)
+        x, d = (parameter(name, number) for number in united([middle, half]))
     except InputError as error:
         raise click.BadParameter(
             f"{text!r}: {error.problem}; {error.hint}", param_hint="--tolerance"

@@ -105,7 +105,7 @@ def command(
     if locus and (not output or view.kind):
         raise click.BadParameter("it is a picture of its own: give -o FILE", param_hint="--locus")
     check_files(csv_file, output)
-    machines = machines_chosen(bicycle_name, delta, changes)
+    machines = machines_chosen(bicycle_name, delta, changes, given)
     files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if view.kind:
         text, results = _viewed(machines, given, view, model, csv_file, output)

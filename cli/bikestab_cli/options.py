@@ -10,7 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
-from bikestab_cli.parameters import MOST_VALUES, deviations_given, over_ends, over_values, values_given
+from bikestab_cli.parameters import (
+    MOST_VALUES,
+    deviations_given,
+    ends_of,
+    over_ends,
+    over_values,
+    values_given,
+)
 
 from bikestab.errors import InputError
 from bikestab.files import check_writable
@@ -49,8 +56,7 @@ class QuantityRange(Quantity):
             return [super().convert(value, param, ctx)]
         if len(parts) != 3:
             self.fail(f"{value!r} is neither a number nor START:STOP:NUM, e.g. 0.05:0.3:6", param, ctx)
-        start, stop = (super(QuantityRange, self).convert(part, param, ctx) for part in parts[:2])
-        _tell_of_mixed_units(parts[:2], self.units)
+        start, stop = (super(QuantityRange, self).convert(part, param, ctx) for part in ends_of(parts[:2]))
         if parts[2].strip() == "1" and start == stop:
             return [start]
         if not parts[2].strip().isdecimal() or not 2 <= int(parts[2]) <= MOST_VALUES:
@@ -70,17 +76,10 @@ class QuantityEnds(Quantity):
         parts = str(value).split(":")
         if len(parts) > 2:
             self.fail(f"{value!r} is neither a number nor START:STOP", param, ctx)
-        start, stop = (super(QuantityEnds, self).convert(part, param, ctx) for part in (parts[0], parts[-1]))
-        _tell_of_mixed_units(parts, self.units)
+        start, stop = (
+            super(QuantityEnds, self).convert(part, param, ctx) for part in ends_of([parts[0], parts[-1]])
+        )
         return start, stop
-
-
-def _tell_of_mixed_units(ends: list[str], units: Units) -> None:
-    """Say in which unit an end without one is read, where the other end has one."""
-    bare = [end for end in ends if end.strip()[-1:] in set("0123456789.")]
-    if len(bare) != 1 or len(ends) == 1 or not quantity(bare[0], units):
-        return
-    click.echo(f"note: {bare[0].strip()} in '{':'.join(ends)}' is in {next(iter(units))}", err=True)
 
 
 class Name(click.ParamType):

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import click
 
 from bikestab.errors import InputError, nearest
-from bikestab.units import quantity, units_in
+from bikestab.units import quantity, united, units_in
 
 MOST_VALUES = 1_000_000
 
@@ -71,12 +71,22 @@ def _over(
             raise click.BadParameter(f"{name} is given twice", param=option)
         seen.add(name)
         try:
-            start, stop = (parameter(name, part) for part in parts[:2])
+            start, stop = (parameter(name, part) for part in ends_of(parts[:2]))
         except InputError as error:
             raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
         if not start < stop:
             raise click.BadParameter(f"{text!r} does not end above its start", param=option)
         yield name, start, stop, parts[2].strip() if len(parts) > 2 else ""
+
+
+def ends_of(parts: list[str]) -> list[str]:
+    """Two ends, of which one without a unit takes that of the other: it is told of, unless it is zero."""
+    both: list[str] = united(parts)
+    for part, text in zip(parts, both, strict=True):
+        if part != text:
+            unit = text.removeprefix(part).strip()
+            click.echo(f"note: {part.strip()} in '{':'.join(parts)}' is in {unit}", err=True)
+    return both
 
 
 def parameter(name: str, text: str) -> float:

@@ -85,7 +85,7 @@ def command(
     from bikestab.export.tables import SENSITIVITY, of_machines, save_csv, sensitivity_blocks
     from bikestab.plausible import deviation_doubts
 
-    machines = machines_chosen(bicycle_name, delta, changes)
+    machines = machines_chosen(bicycle_name, delta, changes, given)
     bicycles = [each.bicycle for each in machines]
     check_files(csv_file, output)
     if len({bicycle.bodies is None for bicycle in bicycles}) > 1:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
@@ -11,6 +11,7 @@ from bikestab_cli.options import DEFAULT_BICYCLE, NAME, equation_options, load_b
 from bikestab_cli.parameters import parameter
 
 from bikestab.errors import InputError
+from bikestab.units import united
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -52,7 +53,7 @@ def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -
         if name in values:
             raise click.BadParameter(f"{name} is set twice", param=option)
         try:
-            values[name] = [parameter(name, number) for number in numbers.split(",")]
+            values[name] = [parameter(name, number) for number in united(numbers.split(","))]
         except InputError as error:
             raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
     return values
@@ -73,8 +74,10 @@ def several_machines(function: F) -> F:
     return named(changed(equation_options(function)))
 
 
-def machines_chosen(names: tuple[str, ...], delta: float | None, changes: Values) -> list[Chosen]:
-    """Every bicycle with every combination of the values that are set."""
+def machines_chosen(
+    names: tuple[str, ...], delta: float | None, changes: Values, given: Collection[str] = ()
+) -> list[Chosen]:
+    """Every bicycle with every combination of the values that are set, unless options have ``given`` them."""
     combinations = list(product(*changes.values()))
     if len(names) * len(combinations) > MOST_MACHINES:
         problem = f"{len(names) * len(combinations)} machines are too many; allowed: {MOST_MACHINES}"
@@ -82,6 +85,7 @@ def machines_chosen(names: tuple[str, ...], delta: float | None, changes: Values
     machines = []
     for name in names:
         own = load_bicycle(name, delta)
+        _check_once(own, changes, given if delta is None else [*given, "delta"])
         tell_which(own, changes)
         for combination in combinations:
             values = dict(zip(changes, combination, strict=True))
@@ -97,6 +101,19 @@ def machines_chosen(names: tuple[str, ...], delta: float | None, changes: Values
                 warn(bicycle)
             machines.append(Chosen(bicycle, values))
     return machines
+
+
+def _check_once(bicycle: Bicycle, changes: Collection[str], given: Collection[str]) -> None:
+    """Refuse what --set and an option both say: the tilt, the trail, the offset, the damping."""
+    from bikestab.variants import fixed_by, front_of
+
+    fixed = fixed_by(bicycle, given)
+    for name in changes:
+        front = front_of(bicycle, name)
+        other = fixed.get(front, "") if front else name if name in given else ""
+        if other:
+            problem = f"{name} is set, and --{other.replace('_', '-')} fixes it too; give one of them"
+            raise click.BadParameter(problem, param_hint="--set")
 
 
 def record_of(

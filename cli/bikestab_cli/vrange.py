@@ -93,7 +93,7 @@ def command(
       bikestab vrange --bicycle meijaard2007 --bicycle sharp1971 --trail 0:15cm:151 -o ends.png
     """
     check_files(output)
-    machines = machines_chosen(bicycle_name, delta, changes)
+    machines = machines_chosen(bicycle_name, delta, changes, given)
     if over:
         _over(machines, over, model, as_json, given or any(deviations) or output)
         return

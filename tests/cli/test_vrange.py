@@ -432,9 +432,12 @@ def test_a_deviation_larger_than_the_value(bikestab):
 
 def test_which_c_is_meant(without_warnings):
     """The trail in one notation, the wheelbase in the other."""
-    machines = ("--bicycle", "meijaard2007", "--bicycle", "dikarev1981")
-    options = ("--lam", "0.3", "--sigma", "0.08", "--set", "c=0.9,1")
-    err = without_warnings("vrange", *machines, *options)[2]
+    changed = ("--lam", "0.3", "--set", "c=0.9,1")
+    runs = (
+        ("--bicycle", "meijaard2007", *changed),
+        ("--bicycle", "dikarev1981", "--sigma", "0.08", *changed),
+    )
+    err = "".join(without_warnings("vrange", *words)[2] for words in runs)
     notes = [line for line in err.splitlines() if "c is" in line]
     assert notes == [
         "note: meijaard2007: c is the trail along the ground", "note: dikarev1981: c is the wheelbase",
@@ -454,3 +457,37 @@ def test_a_rider_that_is_not_there(bikestab):
     code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "rider.m=60,100")
     assert (code, out) == (2, "")
     assert "meijaard2007 has no rider apart; its file needs one under rider:" in err
+
+
+def test_an_end_without_a_unit_takes_that_of_the_other(bikestab):
+    code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", "--trail", "40:80mm:3", "--json")
+    assert (code, err) == (0, "note: 40 in '40:80mm' is in mm\n")
+    assert [r["trail"] for r in json.loads(out)["results"]] == pytest.approx([0.04, 0.06, 0.08])
+    over = json.loads(
+        bikestab("vrange", "--bicycle", "meijaard2007", "--over", "offset=10:80mm:2", "--json")[1]
+    )
+    assert [r["offset"] for r in over["results"]] == pytest.approx([0.01, 0.08])
+    changed = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "c=55mm,60", "--json")[1]
+    assert [r["trail"] for r in json.loads(changed)["results"]] == pytest.approx([0.055, 0.06])
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        (["--set", "c=55mm", "--trail", "60mm"], "c is set, and --trail fixes it too; give one of them"),
+        (["--set", "lam=19deg", "--head-angle", "70deg"], "lam is set, and --head-angle fixes it too"),
+        (["--set", "c=55mm", "--offset", "45mm"], "c is set, and --offset fixes it too"),
+        (["--set", "delta=1", "--delta", "2"], "delta is set, and --delta fixes it too"),
+    ],
+)
+def test_what_is_said_twice(bikestab, changes, told):
+    code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", *changes)
+    assert (code, out) == (2, "")
+    assert told in err
+
+
+def test_a_tilt_may_be_set_beside_a_trail(bikestab):
+    words = ("vrange", "--bicycle", "meijaard2007", "--trail", "55mm", "--json")
+    tilts = (["--set", "lam=19deg"], ["--lam", "19deg"])
+    one, other = (json.loads(bikestab(*words, *tilt)[1])["results"][0] for tilt in tilts)
+    assert one["intervals"] == other["intervals"]

@@ -43,6 +43,19 @@ def test_they_are_lam_and_sigma():
     assert all(outcome.holds for outcome in outcomes(config))
 
 
+def test_an_end_without_a_unit_takes_that_of_the_other():
+    bare = MEASURED.replace("start: 68deg", "start: 68").replace("[0mm, 51mm, 10.2cm]", "[0, 51, 102mm]")
+    config = load(bare + "ensemble: {mB: {normal: [85kg, 3000g]}, c: {uniform: [70, 90mm]}, samples: 2}\n")
+    assert config.grid.values("lam") == pytest.approx(load(SAME).grid.values("lam"), rel=0, abs=1e-15)
+    assert config.grid.values("sigma") == pytest.approx([0, 0.05, 0.1], rel=0, abs=1e-15)
+    assert config.ensemble.parameters["c"].uniform == (0.07, 0.09)
+    family = "bicycle: meijaard2007\ngrid:\n  x: {name: mB, start: 60, stop: 110000g, num: 3}\n"
+    family += "  y: {name: offset, start: 10, stop: 80mm, num: 3}\n  V: {start: 18, stop: 36km/h, num: 3}\n"
+    grid = load(family).grid
+    assert grid.x.points[0] == pytest.approx(0.06)
+    assert (grid.y.points[0], grid.V.start) == (pytest.approx(0.01), 5)
+
+
 def test_the_schema_knows_them():
     validator = jsonschema.Draft202012Validator(config_schema())
     validator.validate(YAML(typ="safe").load(MEASURED))
@@ -59,8 +72,8 @@ def test_the_schema_knows_them():
             "line 3: grid.head_angle.start: '68mm' is not a number",
         ),
         (
-            "start: 68deg",
-            "start: 68",
+            "start: 68deg, stop: 74deg",
+            "start: 68, stop: 74",
             "line 3: grid.head_angle.start: a head angle of 68 rad",
         ),
         ("51mm, 10.2cm", "51mm, 1O cm", "line 4: grid.trail.values[2]: '1O cm' is not a number"),

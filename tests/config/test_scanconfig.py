@@ -45,7 +45,7 @@ def test_a_range_has_both_ends():
 
 
 def test_values_of_ones_own():
-    grid = load(GOOD, "grid.V={values: [0.5, 18km/h, 20]}").grid
+    grid = load(GOOD, "grid.V={values: [0.5m/s, 18km/h, 20m/s]}").grid
     np.testing.assert_array_equal(grid.values("V"), [0.5, 5, 20])
     assert grid.shape == (4, 5, 3)
     assert grid.ends("V") == (0.5, 20)

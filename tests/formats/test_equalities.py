@@ -74,6 +74,24 @@ def test_what_is_free():
 
 
 @pytest.mark.parametrize(
+    ("text", "value", "deviation"),
+    [
+        ("80mm +/- 2mm", "80mm", 0.002),
+        ("80 +/- 2 mm", "80 mm", 0.002),
+        ("80mm ± 2", "80mm", 0.002),
+        ("8cm ± 2mm", "8cm", 0.002),
+        ("72deg +/- 0.5deg", "72deg", 0.5 * math.pi / 180),
+        ("187 lb +- 1 kg", "187 lb", 1.0),
+    ],
+)
+def test_units_of_measured_values(text, value, deviation):
+    """One without a unit has that of the other; the value keeps its own, for the bicycle to check."""
+    found = parse(f"c = {text}\n", "x.txt")
+    assert found.values == {"c": value}
+    assert found.deviations == {"c": pytest.approx(deviation, rel=1e-15)}
+
+
+@pytest.mark.parametrize(
     ("line", "message"),
     [
         ("w 1.02", "x.txt, line 3: 'w 1.02' has no '='"),
@@ -83,6 +101,9 @@ def test_what_is_free():
         ("w = 1.0+/-nan", "x.txt, line 3: w: '1.0+/-nan' is not a measured value"),
         ("w = nan+/-1", "x.txt, line 3: w: 'nan+/-1' is not a measured value"),
         ("w = 1.0+/--1", "x.txt, line 3: w: '1.0+/--1' is not a measured value"),
+        ("w = 80mm +/- 2kg", "x.txt, line 3: w: '80mm +/- 2kg' is not two numbers"),
+        ("w = 80mm +/- 2 ells", "x.txt, line 3: w: '80mm +/- 2 ells' is not two numbers"),
+        ("w = 80mm +/- -2mm", "x.txt, line 3: w: '80mm +/- -2mm' is not a measured value"),
         ("w = 1.0, two", "x.txt, line 3: w: 'two' is not a number"),
         ("w = 1.0,", "x.txt, line 3: w: '' is not a number"),
         ("c = 2", "x.txt, line 3: c: given twice, first in line 2"),
