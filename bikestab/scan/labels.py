@@ -92,4 +92,4 @@ def add_vtk_view(file: h5py.File, names: tuple[str, ...], grid: Axes) -> None:
     group.attrs["Direction"] = np.eye(3).ravel()
     points = group.create_group("PointData", track_order=True)
     for name in names:
-        points[name] = file[name]
+        points[name] = h5py.SoftLink(f"/{name}")  # hard ones let kerchunk lose the fields themselves

@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import h5py
+
 
 class Sink(io.FileIO):
     """A file that keeps what went wrong to itself until it is asked: HDF5 crashes over a failed write."""
@@ -43,3 +45,18 @@ class Sink(io.FileIO):
             yield
         finally:
             signal.signal(signal.SIGINT, handler)
+
+
+def empty_file(sink: Sink) -> h5py.File:
+    """A file with the links of its root in order, as netCDF-4 wants them to append, and its attributes not.
+
+    With ordered attributes, or newer formats, HDF5 indexes more than eight of them apart, where jsfive
+    does not look.
+    """
+    ordered = h5py.h5p.CRT_ORDER_TRACKED | h5py.h5p.CRT_ORDER_INDEXED
+    creation, access = h5py.h5p.create(h5py.h5p.FILE_CREATE), h5py.h5p.create(h5py.h5p.FILE_ACCESS)
+    creation.set_obj_track_times(False)
+    creation.set_link_creation_order(ordered)
+    access.set_libver_bounds(h5py.h5f.LIBVER_EARLIEST, h5py.h5f.LIBVER_LATEST)
+    access.set_fileobj_driver(h5py.h5fd.fileobj_driver, sink)
+    return h5py.File(h5py.h5f.create(b"volume", h5py.h5f.ACC_TRUNC, creation, access))

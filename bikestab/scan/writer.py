@@ -25,7 +25,7 @@ from bikestab.scan.labels import MARGINAL, add_vtk_view, describe, file_attribut
 from bikestab.scan.linking import widened
 from bikestab.scan.plan import Plan
 from bikestab.scan.sheets import Sheets
-from bikestab.scan.sink import Sink
+from bikestab.scan.sink import Sink, empty_file
 from bikestab.speeds import KINDS, Intervals
 from bikestab.volume import uniform
 
@@ -40,7 +40,7 @@ def new_volume(path: Path, plan: Plan) -> Iterator[VolumeWriter]:
     partial = path.with_name(path.name + ".partial")
     partial.unlink(missing_ok=True)
     with beside(path, partial), Sink(partial, "x+") as sink, sink.uninterrupted():
-        with h5py.File(sink, "w", track_order=True) as file:
+        with empty_file(sink) as file:
             yield VolumeWriter(file, plan, sink)
         sink.check()
         os.fsync(sink.fileno())

@@ -28,10 +28,11 @@ def pair(request, tmp_path_factory):
         yield old, new
 
 
-def items(file):
-    """All groups and datasets by name."""
-    found = {"/": file}
-    file.visititems(lambda name, item: found.__setitem__(name, item))
+def items(group, prefix=""):
+    """All groups and datasets by name, through links of both kinds."""
+    found = {prefix.rstrip("/") or "/": group}
+    for name, item in group.items():
+        found |= items(item, f"{prefix}{name}/") if isinstance(item, h5py.Group) else {prefix + name: item}
     return found
 
 
