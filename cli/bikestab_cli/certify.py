@@ -21,11 +21,11 @@ from bikestab_cli.options import (
     told_as_options,
 )  # fmt: skip
 from bikestab_cli.output import heading, print_json, tell_file
-from bikestab_cli.parameters import parameter
 from bikestab_cli.progress import progress
+from bikestab_cli.tolerances import tolerances_of, with_design
 
 from bikestab.errors import InputError
-from bikestab.units import DAMPING, united
+from bikestab.units import DAMPING
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -87,7 +87,7 @@ def command(
     proved to be stable throughout, to be unstable throughout, or stays undecided, as do those with the
     boundary in them. The numbers are the
     exact doubles that are given; all rounding is bounded. With --tolerance a cell is proved for all
-    machines in the range.
+    machines in the range; one of head_angle, trail, offset, lam or sigma is a side of the box.
 
     The verdict is stable, unstable, mixed (both are there for certain) or undecided; the exit code
     is 0 for each of them.
@@ -98,6 +98,7 @@ def command(
       bikestab certify --bicycle meijaard2007 --lam 17deg:19deg --sigma 0.07:0.085 --V 4.6:5.6
       bikestab certify --bicycle meijaard2007 --lam 0.3 --sigma 0.08 --V 4.6:5 --tolerance mB=85+-2
       bikestab certify --bicycle meijaard2007 --head-angle 72deg --offset 30mm:35mm --V 4.6:5.6
+      bikestab certify --bicycle meijaard2007 --head-angle 72deg --tolerance trail=80mm+-3mm --V 4.6:5.4
       bikestab certify --lam 0.2:0.21 --sigma 0.08 --V 4.1:4.6 --cells 4 -o proof.json
       bikestab certify --verify proof.json
     """
@@ -108,6 +109,7 @@ def command(
     from bikestab.certify.proof import prove
 
     check_files(certificate)
+    given, texts = with_design(given, tolerance)
     if config:
         others = {"V": speed, "bicycle": bicycle_name, "delta": delta, "model": model}
         if twice := [f"--{k.replace('_', '-')}" for k, v in {**given, **others}.items() if v is not None]:
@@ -121,7 +123,7 @@ def command(
         show(0, 10**6)
         proof = prove(
             bicycle, *(edges[name] for name in ("lam", "sigma", "V")), model=model or "refined",
-            tolerances=_tolerances(tolerance, bicycle),
+            tolerances=tolerances_of(texts, bicycle),
             progress=lambda share: show(int(1e6 * share), 10**6),
         )  # fmt: skip
     if certificate:
@@ -172,38 +174,6 @@ def _of_config(name: str) -> tuple[Bicycle, Model, dict[str, Ends]]:
         problem = f"its grid is over {config.grid.names[0]} and {config.grid.names[1]}"
         raise InputError(problem, key=("grid",), hint="only tilt and trail are certified")
     return config.machine, config.model, {axis: config.grid.ends(axis) for axis in ("lam", "sigma", "V")}
-
-
-def _tolerances(texts: tuple[str, ...], bicycle: Bicycle) -> dict[str, Ends]:
-    pairs = [_tolerance(text, bicycle) for text in texts]
-    names = [name for name, _ in pairs]
-    if twice := {name for name in names if names.count(name) > 1}:
-        raise click.BadParameter(f"{twice.pop()} is given twice", param_hint="--tolerance")
-    return dict(pairs)
-
-
-def _tolerance(text: str, bicycle: Bicycle) -> tuple[str, Ends]:
-    from bikestab.errors import nearest
-
-    name, equals, value = text.partition("=")
-    middle, sign, half = value.replace("±", "+-").replace("+/-", "+-").partition("+-")
-    name = name.strip()
-    if not equals or not sign:
-        raise click.BadParameter(f"{text!r} is not NAME=VALUE+-HALF, e.g. mB=85+-2", param_hint="--tolerance")
-    allowed = {*bicycle.given, "g", "delta"} - {"lam", "sigma", "rider.inertia_mass"}
-    allowed -= {"c"} if bicycle.bodies else set()
-    if name not in allowed:
-        problem = f"{bicycle.name} has no parameter {name!r} that can vary; {nearest(name, sorted(allowed))}"
-        raise click.BadParameter(problem, param_hint="--tolerance")
-    try:
-        x, d = (parameter(name, number) for number in united([middle, half]))
-    except InputError as error:
-        raise click.BadParameter(
-            f"{text!r}: {error.problem}; {error.hint}", param_hint="--tolerance"
-        ) from None
-    if d < 0:
-        raise click.BadParameter(f"{text!r}: {d:g} is negative", param_hint="--tolerance")
-    return name, (x - d, x + d)
 
 
 def _words(proof: Proof) -> str:

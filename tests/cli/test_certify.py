@@ -45,6 +45,22 @@ def test_a_box_of_head_angles_and_trails(bikestab, design, same):
     assert found[0]["verdict"] == found[1]["verdict"] == "stable"
 
 
+@pytest.mark.parametrize(
+    ("tolerance", "same"),
+    [("trail=80mm+-3mm", ["--trail", "77mm:83mm"]), ("offset=32mm±2mm", ["--offset", "30mm:34mm"])],
+)
+def test_tolerances_of_the_design_are_sides_of_the_box(bikestab, tolerance, same):
+    """Not further dimensions: the same box, with its proof."""
+    found = []
+    for typed in (["--tolerance", tolerance], same):
+        options = ["--head-angle", "72deg", *typed, "--V", "4.7:5.3", "--cells", "2", "--json"]
+        found.append(json.loads(bikestab("certify", "--bicycle", "meijaard2007", *options)[1]))
+    assert found[0]["box"].keys() == {"lam", "sigma", "V"}
+    for axis, ends in found[0]["box"].items():
+        assert ends == pytest.approx(found[1]["box"][axis], rel=1e-14)
+    assert found[0]["verdict"] == found[1]["verdict"] == "stable"
+
+
 def test_a_box_of_fork_offsets(bikestab):
     """At one tilt: b = R2 sin λ − σ w cos λ, with the benchmark's rF = 0.35 m and w = 1.02 m."""
     options = ["--head-angle", "72deg", "--offset", "30mm:35mm", "--V", "4.8:5.2", "--cells", "2", "--json"]
@@ -66,6 +82,9 @@ def test_a_box_of_fork_offsets(bikestab):
         (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "mB=85+-2"], "no parameter 'mB'"),
         (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "m1=85"], "mB=85+-2"),
         (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "m1=1+-2"], "m1"),
+        (["--trail", "0.1", "--tolerance", "trail=80mm+-3mm"], "trail is given twice"),
+        (["nowhere.yaml", "--tolerance", "trail=80mm+-3mm"], "says what --trail says"),
+        (["--lam", "0.1", "--V", "1:2", "--tolerance", "trail=80+-3kg"], "trail=80+-3kg"),
         (["--verify", "nowhere.json"], "nowhere.json"),
         (["--verify", "/dev/zero"], "/dev/zero: is longer than 50 MB"),
         (["nowhere.yaml"], "nowhere.yaml"),
