@@ -10,6 +10,7 @@ import shlex
 import subprocess
 import sysconfig
 import tempfile
+from hashlib import sha256
 from pathlib import Path
 
 SOURCES = sorted((Path(__file__).parent / "bikestab").glob("*.c"))
@@ -21,10 +22,13 @@ LINKED = "-lm"
 
 def compiled(target: Path) -> bool:
     """Whether a library was made there, by $CC or the compiler that Python itself was made with."""
+    target.unlink(missing_ok=True)
+    text = b"".join(path.read_bytes() for path in SOURCES)
+    flags = f"{FLAGS} -DSOURCES=0x{sha256(text).hexdigest()[:15]}ULL"
     named = os.environ.get("CC")
     for compiler in [named] if named else [sysconfig.get_config_var("CC") or "cc", "cc"]:
         try:
-            command = [*shlex.split(compiler), *FLAGS.split(), "-o", str(target), *map(str, SOURCES), LINKED]
+            command = [*shlex.split(compiler), *flags.split(), "-o", str(target), *map(str, SOURCES), LINKED]
             subprocess.run(command, check=True, capture_output=True, timeout=300)
         except (OSError, ValueError, subprocess.SubprocessError):
             continue

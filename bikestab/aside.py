@@ -51,6 +51,7 @@ class _Second(Generic[T]):
         self.pipe, theirs = os.pipe()
         self.child = os.fork()
         if not self.child:
+            os.close(self.pipe)  # where the first process is killed, nobody reads, and writing ends
             _answer(task, theirs)
         os.close(theirs)
 

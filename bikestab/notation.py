@@ -121,9 +121,9 @@ def joined(*bodies: tuple[Any, ...]) -> tuple[Any, ...]:
     xx, zz, xz = (_total(body[i] for body in bodies) for i in (3, 4, 5))
     for mass, ahead, up, *_ in bodies:
         dx, dh = ahead - x, up - h
-        xx += mass * dh * dh
-        zz += mass * dx * dx
-        xz += mass * dx * dh  # −∫ x z dm with z = −h
+        xx = xx + mass * dh * dh  # not in place: they may broadcast
+        zz = zz + mass * dx * dx
+        xz = xz + mass * dx * dh  # −∫ x z dm with z = −h
     return m, x, h, xx, zz, xz
 
 

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import pytest
 
@@ -104,3 +105,21 @@ def test_cores():
     from bikestab.aside import cores
 
     assert 1 <= cores() <= os.cpu_count()
+
+
+@linux
+def test_it_ends_with_the_first_process_however_that_ends():
+    out, _ = run("""
+        import subprocess
+        first = os.fork()
+        if not first:
+            with meanwhile(lambda: (time.sleep(0.3), b"x" * (1 << 20))) as result:
+                with open("/proc/self/task/%d/children" % os.getpid()) as file:
+                    os.write(1, file.read().encode())
+                os.kill(os.getpid(), signal.SIGKILL)
+        os.waitpid(first, 0)
+        time.sleep(1.5)
+        """)
+    assert len(out) == 1
+    state = Path("/proc", out[0], "stat")
+    assert not state.exists() or " Z " in state.read_text()

@@ -30,6 +30,33 @@ needed = pytest.mark.skipif(not compiled.available(), reason="no C compiler has 
 NAMES = ["dikarev1981", "meijaard2007", "kooijman2011", "sharp1971"]
 
 
+@needed
+def test_what_was_made_of_other_sources_is_not_taken(tmp_path):
+    for path in (compiled.LIBRARY, *compiled.LIBRARY.parent.glob("*.c")):
+        shutil.copy(path, tmp_path)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(compiled, "LIBRARY", tmp_path / compiled.LIBRARY.name)
+        assert compiled._library.__wrapped__() is not None
+        with (tmp_path / "growth.c").open("a") as file:
+            file.write("/* changed */")
+        assert compiled._library.__wrapped__() is None
+
+
+@needed
+def test_entries_out_of_range_are_left_to_the_reference():
+    table = np.zeros((5, 4, 1))
+    for key, value in {
+        (0, 0): 1.24e-301, (0, 2): -3.98e-300, (1, 0): 6.7e-299, (1, 3): 1.9e-298, (2, 0): 19.8,
+        (2, 2): 1.4e152, (3, 0): 1.07e147, (3, 1): 2e-298, (4, 0): 1e-3,
+    }.items():  # fmt: skip
+        table[key] = value
+    with np.errstate(all="ignore"):
+        expected = intervals_of(table)
+        V1, V2 = compiled.stable_speeds(table)
+    np.testing.assert_array_equal(V1, expected.V1)
+    np.testing.assert_array_equal(V2, expected.V2)
+
+
 def table_of(bicycle, n=6, m=7, most=0.6):
     lam, sigma = np.repeat(np.linspace(-0.1, most, n), m), np.tile(np.linspace(-0.05, 0.3, m), n)
     return exact_table(bicycle, lam, sigma).value

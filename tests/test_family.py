@@ -161,3 +161,20 @@ def test_values_that_no_machine_has(family, x, y, key):
     with pytest.raises(InputError) as error:
         family.check(x, y)
     assert error.value.key == (key,)
+
+
+def test_any_two_of_the_25_broadcast_in_either_order():
+    """A table over rows of one parameter and columns of another is that of their pairs."""
+    names = ["w", "lam", "rR", "mR", "IRxx", "xB", "zB", "mB", "IBxx", "IBxz", "mH", "IHzz", "rF", "IFyy"]
+    for x in names:
+        for y in names:
+            if x == y:
+                continue
+            family = Family(MEIJAARD, x=x, y=y)
+            X, Y = (
+                MEIJAARD.bodies[name] * np.array(factors)
+                for name, factors in ((x, [1, 1.01]), (y, [1, 1.02, 1.04]))
+            )
+            table = family.exact_table(X[:, np.newaxis], Y).value
+            pairs = family.exact_table(np.repeat(X, 3), np.tile(Y, 2)).value
+            np.testing.assert_array_equal(table.reshape(5, 4, -1), pairs, err_msg=f"{x} {y}")
