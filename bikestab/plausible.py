@@ -33,7 +33,11 @@ def warnings_of(bicycle: Bicycle) -> tuple[str, ...]:
         part_warnings("1", "rear", b.A1, b.B1, b.C1, b.m1, b.R1, b.h1, -b.l1, rear),
         part_warnings("2", "front", b.A2, b.B2, b.C2, b.m2, b.R2, b.h2, b.c - b.l2, front),
     )
-    return (*b.remarks, *parts[0], *parts[1], *_geometry(b))
+    found = (*b.remarks, *parts[0], *parts[1], *_geometry(b))
+    if not b.bodies:
+        return found
+    hint = "; z points down, so that zB and zH are negative"
+    return tuple(text + hint if "below the ground" in text else text for text in found)
 
 
 def design_doubts(lam: float | None, sigma: float | None, wheelbase: float) -> list[str]:

@@ -18,6 +18,7 @@ from bikestab_cli.parameters import (
     over_values,
     values_given,
 )
+from bikestab_cli.riders import rider_option, with_its_rider
 
 from bikestab.errors import InputError
 from bikestab.files import check_writable
@@ -128,8 +129,9 @@ def machine_options(function: F) -> F:
 
 
 def equation_options(function: F) -> F:
-    """--model and --delta."""
+    """--rider, --model and --delta."""
     for option in (
+        rider_option,
         click.option(
             "--delta", type=Quantity("number", DAMPING),
             help="Steering damping δ [kg m²/s], instead of the bicycle's own.",
@@ -180,6 +182,7 @@ def load_bicycle(name: str, delta: float | None) -> Bicycle:
         raise click.BadParameter(f"{delta:g} is negative; allowed: 0 and above", param_hint="--delta")
     bicycle = Bicycle.load(name)
     with told_as_options():
+        bicycle = with_its_rider(bicycle)
         bicycle = bicycle.with_delta(None if delta is None else delta + 0.0)  # not -0
     warn(bicycle)
     return bicycle

@@ -76,3 +76,17 @@ def test_two_parts_cannot_be_taken_apart(bikestab):
 def test_the_name_is_kept(bikestab):
     assert bikestab("convert", "meijaard2007", "-o", "other.ini")[0] == 0
     assert Bicycle.load("other.ini").name == "meijaard2007"
+
+
+def test_a_rider_beside_the_bicycle_is_the_joined_one(bikestab):
+    """With the correlations of a measured file, which a joined file written anew has lost."""
+    Path("rider.txt").write_text(RIDER)
+    bikestab("convert", "meijaard2007", "--rider", "rider.txt", "-o", "joined.yaml")
+    beside = bikestab("vrange", "--bicycle", "meijaard2007", "--rider", "rider.txt", "--json")
+    joined = bikestab("vrange", "--bicycle", "joined.yaml", "--json")
+    assert beside[0] == joined[0] == 0
+    assert json.loads(beside[1])["results"] == json.loads(joined[1])["results"]
+    assert (
+        "--rider: the bicycle 'dikarev1981' is not given by the 25"
+        in bikestab("vrange", "--rider", "rider.txt")[2]
+    )

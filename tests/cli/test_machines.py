@@ -148,7 +148,8 @@ def test_warnings_are_of_the_machines_that_are_computed(scan):
     """A centre of mass below the ground; not of the config's own machine, which is above it."""
     assert scan("sweep: {zB: [-0.9, 0.9]}\n")[2] == (
         "warning: meijaard2007: 1 of 2 machines of the sweep: "
-        "the rear centre of mass is below the ground: h1 = -0.872414 m\n"
+        "the rear centre of mass is below the ground: h1 = -0.872414 m"
+        "; z points down, so that zB and zH are negative\n"
     )
     more = "ensemble: {zB: {uniform: [-0.9, 1.9]}, samples: 100}\noutput: out/b\n"
     err = scan(more)[2]
