@@ -19,13 +19,14 @@ from scipy.optimize import linprog
 from scipy.stats import qmc
 
 from bikestab.bicycle import Bicycle
+from bikestab.design.around import around, values_around
 from bikestab.errors import InputError
 from bikestab.limits import MOST_TRAIL
 from bikestab.machines import Machines, standard_normal
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import conditions
 from bikestab.speeds import intervals_of
-from bikestab.variants import check_names, own_value, varied
+from bikestab.variants import check_names, own_value
 
 FARTHEST = 100.0  # standard deviations; a larger ball is cut
 _SEED = 2007
@@ -74,6 +75,9 @@ class Ball:
                 raise InputError(
                     f"{name}={deviation:g} is not positive", key=("sd",), hint="allowed: above 0"
                 )
+            if name == "R" and name not in self.ends and own_value(self.bicycle, name) is None:
+                problem = f"the bicycle {self.bicycle.name!r} has two wheels that differ, and no R"
+                raise InputError(problem, key=("sd",), hint="give R1 and R2")
 
     @cached_property
     def unit(self) -> Floats:
@@ -112,10 +116,8 @@ class Ball:
 
     def _tables(self, x: Floats, z: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """Tables (5, 4, S), and which are of a machine."""
-        values = dict(zip(self.ends, x, strict=True))
-        for name, step, away in zip(self.deviations, self.unit, z, strict=True):
-            values[name] = values.get(name, own_value(self.bicycle, name)) + step * away
-        machine, lam, sigma = varied(self.bicycle, values)
+        steps = dict(zip(self.deviations, self.unit[:, np.newaxis] * z, strict=True))
+        machine, lam, sigma = around(self.bicycle, dict(zip(self.ends, x, strict=True)), steps)
         lam, sigma = (np.broadcast_to(value, x.shape[1:]) for value in (lam, sigma))
         good = (np.abs(lam) < _STEEPEST) & (np.abs(sigma) < MOST_TRAIL)
         if isinstance(machine, Machines):
@@ -218,11 +220,9 @@ def _climbed(ball: Ball, x: Floats) -> Robust:
             trust = 0.35 * trust
     u, distance = contacts(ball, x, _MANY)
     nearest = int(np.argmin(distance))
-    values = dict(zip(ball.ends, x.tolist(), strict=True))
-    at = {}
-    for k, name in enumerate(ball.deviations):
-        centre = values.get(name, own_value(ball.bicycle, name))
-        at[name] = float(centre + ball.unit[k] * distance[nearest] * u[k, nearest])
+    away = ball.unit * distance[nearest] * u[:, nearest]
+    steps = dict(zip(ball.deviations, away.tolist(), strict=True))
+    at = values_around(ball.bicycle, dict(zip(ball.ends, x.tolist(), strict=True)), steps)
     return Robust(x, float(distance[nearest]), at)
 
 
