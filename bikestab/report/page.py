@@ -27,6 +27,11 @@ CITE = (
 )
 
 
+NEEDED = InputError(
+    "a page cannot be made without plotly", hint='it needs the extra: pip install "bikestab[report]"'
+)
+
+
 def save_page(volumes: Sequence[Volume], path: str | Path) -> int:
     """Write the page of one or more volumes; its size in bytes.
 
@@ -65,8 +70,7 @@ def _plotly() -> str:
     try:
         from plotly.offline import get_plotlyjs
     except ImportError:
-        hint = 'it needs the extra: pip install "bikestab[report]"'
-        raise InputError("a page cannot be made without plotly", hint=hint) from None
+        raise NEEDED from None
     return str(get_plotlyjs())
 
 

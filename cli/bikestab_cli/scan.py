@@ -66,7 +66,7 @@ def command(
     """
     if jobs and scheduler:
         raise click.UsageError("--jobs is for this machine, --scheduler for a cluster; give one of them")
-    loaded = _load(configs, overrides)
+    loaded = _load(configs, overrides, certify, report)
     done: list[dict[str, object]] = []
     try:
         for name, config in loaded:
@@ -87,7 +87,9 @@ def command(
             print_json({"results": done})
 
 
-def _load(names: tuple[str, ...], overrides: tuple[str, ...]) -> list[tuple[str, ScanConfig]]:
+def _load(
+    names: tuple[str, ...], overrides: tuple[str, ...], certify: bool, report: bool
+) -> list[tuple[str, ScanConfig]]:
     """All configs, before the first is computed."""
     from bikestab.config.file import load_config
     from bikestab.errors import InputError
@@ -98,11 +100,53 @@ def _load(names: tuple[str, ...], overrides: tuple[str, ...]) -> list[tuple[str,
         with of_file(name):
             config = load_config(name, overrides)
             check_size(config)
+            for asked, option in ((certify, "--certify"), (report, "--report")):
+                if asked:
+                    _check_exact(config, option)
+            if report:
+                _check_page(config)
             path = Path(os.path.realpath(volume_path(config)))
             if path in loaded:
                 raise InputError(f"{config.output} is the output of {loaded[path][0]} too", key=("output",))
         loaded[path] = name, config
     return list(loaded.values())
+
+
+def _check_exact(config: ScanConfig, option: str) -> None:
+    """Raise InputError where the formulas that proofs and the page are made of do not know the machines."""
+    from bikestab.errors import InputError
+    from bikestab.fields import AXES
+
+    hint = f"leave {option} out"
+    if config.grid.names != AXES:
+        x, y, _ = config.grid.names
+        raise InputError(
+            f"the grid is over {x} and {y}, and {option} takes lam and sigma", key=("grid",), hint=hint
+        )
+    if any(member.bicycle.gains for member in config.members):
+        raise InputError(f"has feedback, which {option} does not know", key=("bicycle",), hint=hint)
+    if option == "--certify" and config.axes:
+        raise InputError("--certify takes one machine, and there is a sweep", key=("sweep",), hint=hint)
+
+
+def _check_page(config: ScanConfig) -> None:
+    """Raise InputError where no page can be made of the config's volume."""
+    from importlib.util import find_spec
+
+    from bikestab.errors import InputError
+    from bikestab.report.page import NEEDED
+    from bikestab.report.volumes import MOST_MACHINES
+
+    if not find_spec("plotly"):
+        raise NEEDED
+    short = [name for name in config.grid.names if len(config.grid.values(name)) < 2]
+    if short:
+        raise InputError(
+            "one value alone, and a page needs a range", key=("grid", short[0]), hint="leave --report out"
+        )
+    if len(config.members) > MOST_MACHINES:
+        problem = f"{len(config.members)} machines, and a page shows {MOST_MACHINES} at most"
+        raise InputError(problem, key=("sweep",), hint="leave --report out, or sweep fewer values")
 
 
 def _run(

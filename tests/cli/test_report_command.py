@@ -34,6 +34,37 @@ def test_a_scan_writes_one_beside_its_pictures(bikestab):
     assert Path("here/report.html").stat().st_size > 4_000_000
 
 
+@pytest.mark.parametrize(
+    ("more", "key", "words"),
+    [
+        ("grid.lam.num=1", "grid.lam", ""),
+        ("grid.sigma={values: [0.1]}", "grid.sigma", "one value alone"),
+        ("bicycle={k_phi: 5}", "bicycle", ""),
+        ("sweep={delta: {start: 0, stop: 1, num: 25}}", "sweep", "25 machines"),
+    ],
+)
+def test_a_scan_that_can_have_no_page_does_not_begin(bikestab, more, key, words):
+    sets = [part for text in (*SMALL, "output=here", more) for part in ("--set", text)]
+    code, out, err = bikestab("scan", CONFIG, *sets, "--report")
+    assert (code, out) == (2, "")
+    assert key in err
+    assert words in err
+    assert not Path("here").exists()
+
+
+def test_feedback_and_sweeps_are_refused_before_a_scan(bikestab):
+    text = CONFIG.with_name("steer_assist.yaml")
+    for option in ("--report", "--certify"):
+        code, _, err = bikestab("scan", text, "--set", "output=here", option)
+        assert code == 2
+        assert option in err or "feedback" in err
+    sets = ["--set", "sweep={delta: [0, 1]}", "--set", "output=here"]
+    code, _, err = bikestab("scan", CONFIG, *sets, "--certify")
+    assert code == 2
+    assert "--certify takes one machine" in err
+    assert not Path("here").exists()
+
+
 def test_what_cannot_be_a_page_is_refused(bikestab, volume, tmp_path):
     code, _, err = bikestab("report", "nowhere", "-o", "page.html")
     assert code == 2
