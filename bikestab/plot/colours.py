@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import FuncNorm, LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from bikestab.model import Floats
+from bikestab.plot.lines import entry
 
 # dark blue, white at zero, orange of middle lightness: the two sides differ in greyscale too
 GROWTH = LinearSegmentedColormap.from_list(
@@ -16,41 +20,72 @@ GROWTH = LinearSegmentedColormap.from_list(
 )
 
 
+OWN = "#e8308a"  # the bicycle's own design
+_ON_PROBABILITY = "#19c0c8"  # which is read on its yellow and its blue
+
+# one scale for every picture, equal on both sides of zero: linear below the first [1/s], logarithmic above
+_LINEAR, _END = 0.05, 5.0
+_TICKS = (0.1, 0.3, 1.0)
+_SHARES = {0.05: (0, (1, 1.2)), 0.5: "-", 0.95: (0, (4, 1.2, 1, 1.2))}  # shares of machines, and their lines
+
+
 def colour_growth_rate(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats) -> Axes:
     """Draw the growth rate; the axes of its colour bar."""
-    finite = values[np.isfinite(values)]
-    low = max(-float(finite.min(initial=0.0)), 0.01)  # each side has its own scale: decay is the smaller
-    high = max(float(finite.max(initial=0.0)), 0.01)
-    width = min(0.3, high / 3)  # below it the upper scale is linear, above it logarithmic
-
-    def forward(rate: Floats) -> Floats:
-        return np.where(rate < 0, rate / low, np.arcsinh(rate / width) / np.arcsinh(high / width))
-
-    def inverse(part: Floats) -> Floats:
-        return np.where(part < 0, part * low, width * np.sinh(part * np.arcsinh(high / width)))
-
-    norm = FuncNorm((forward, inverse), vmin=-low, vmax=high)
+    norm = FuncNorm((_forward, _inverse), vmin=-_END, vmax=_END)
     image = ax.pcolormesh(
         x, y, np.ma.masked_invalid(values), norm=norm, cmap=GROWTH, shading="nearest", rasterized=True
     )
     ax.set_facecolor("0.6")  # where an eigenvalue is infinite
     bar = figure.colorbar(image, ax=ax)
     bar.set_label("growth rate [s⁻¹]: largest real part of the eigenvalues")
-    ticks = [-low, -low / 2, 0.0, *(t for t in (0.1, 0.3, 1, 3, 10, 30, 100, 300) if width / 4 < t < high)]
+    ticks = sorted({0.0, *(sign * tick for tick in (*_TICKS, _END) for sign in (-1, 1))})
     bar.ax.yaxis.set_major_locator(FixedLocator(ticks))
     bar.ax.yaxis.set_minor_locator(NullLocator())
-    bar.ax.set_yticklabels([f"{tick:.2g}".replace("-", "−") for tick in ticks])
+    names = [f"{tick:g}".replace("-", "−") for tick in ticks]
+    names[0], names[-1] = f"≤{names[0]}", f"≥{names[-1]}"
+    bar.ax.set_yticklabels(names)
     bar.ax.axhline(0, color="k", lw=1.2)
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(y[0], y[-1])
     return bar.ax
 
 
+def _forward(rate: Floats) -> Floats:
+    return np.arcsinh(np.asarray(rate) / _LINEAR) / np.arcsinh(_END / _LINEAR)
+
+
+def _inverse(part: Floats) -> Floats:
+    return _LINEAR * np.sinh(np.asarray(part) * np.arcsinh(_END / _LINEAR))
+
+
 def colour_probability(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats, samples: int) -> Axes:
-    """Draw the probability of stability; the axes of its colour bar."""
+    """Draw the probability of stability, and where it is 5, 50 and 95 %; the axes of its colour bar."""
     image = ax.pcolormesh(x, y, values, vmin=0, vmax=1, cmap="cividis", shading="nearest", rasterized=True)
     bar = figure.colorbar(image, ax=ax)
     bar.set_label(f"probability of stability, {samples} machines")
+    for share, style in _SHARES.items():
+        if _crossed(values, share):
+            drawn: dict[str, Any] = {
+                "linestyles": [style],
+                "linewidths": 1.2,
+                "zorder": 4,
+                "colors": [_ON_PROBABILITY],
+            }
+            ax.contour(x, y, values, levels=[share], **drawn)
+            bar.ax.axhline(share, color=_ON_PROBABILITY, ls=style, lw=1.4)
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(y[0], y[-1])
     return bar.ax
+
+
+def shares(values: Floats) -> list[Line2D]:
+    """What the legend says of the curves of equal probability."""
+    return [
+        entry(f"{share:.0%} of machines".replace("%", " %"), color=_ON_PROBABILITY, ls=style, lw=1.4)
+        for share, style in _SHARES.items()
+        if _crossed(values, share)
+    ]
+
+
+def _crossed(values: Floats, share: float) -> bool:
+    return min(values.shape) > 1 and bool(values.min() < share < values.max())

@@ -31,6 +31,7 @@ from bikestab.volume import Subject
 # two colours of Okabe and Ito (2008) that differ in greyscale too
 SHEETS = {WEAVE: ("#0072b2", "weave boundary"), CAPSIZE: ("#e69f00", "capsize boundary")}
 _CELLS = 48  # of the mesh, per axis
+_CLEAR = 0.6  # of the upper sheet
 _LIGHT = np.array([-0.45, -0.6, 0.66])  # direction to the light, in units of the box
 _SCALE = (1.0, 1.0, 0.85)  # of the drawn box
 
@@ -61,7 +62,9 @@ def draw_region(subject: Subject) -> Figure:
     if straight and not np.isnan(sigma).all():
         handles.append(straight_entry("smaller σ"))
     rows = legend_below(figure, handles, ncols=2, handlelength=2)
-    what = f"{short(bicycle.name)}: stable region{remarks(bicycle, family.model)}"
+    what = (
+        f"{short(bicycle.name)}: stable between the lower and the upper sheet{remarks(bicycle, family.model)}"
+    )
     set_title(ax, subject.title, what, y=1 / 0.92)  # Axes3D puts it at 0.92 of that
     arrange_region(figure, ax, rows)
     return figure
@@ -101,8 +104,10 @@ def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
     light = 0.55 + 0.45 * np.abs(normal @ _LIGHT)  # both sides are seen
     colour = np.full((len(KINDS), 3), 0.5)
     colour[list(SHEETS)] = [to_rgb(name) for name, _ in SHEETS.values()]
-    faces = colour[mesh.kind] * light[:, np.newaxis]
-    ax.add_collection3d(Poly3DCollection(corners, facecolors=faces, edgecolors=faces, linewidths=0.25))
+    clear = np.where(mesh.upper, _CLEAR, 1.0)  # the lower sheet is seen through the upper
+    faces = np.column_stack([colour[mesh.kind] * light[:, np.newaxis], clear])
+    surface = Poly3DCollection(corners, facecolors=faces, edgecolors="none", antialiaseds=False)
+    ax.add_collection3d(surface)
 
 
 def _rim(ax: Axes3D, mesh: Mesh) -> list[Line2D]:

@@ -15,7 +15,7 @@ from bikestab.fields import AXES, Axis
 from bikestab.model import Floats
 from bikestab.plot.arranged import arrange_plane, title_place
 from bikestab.plot.axes import SYMBOLS, head_angle, label_family, remarks
-from bikestab.plot.colours import GROWTH, colour_growth_rate, colour_probability
+from bikestab.plot.colours import GROWTH, OWN, colour_growth_rate, colour_probability, shares
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import EDGES, draw_on_white, entry, legend_below, straight_fork
 from bikestab.plot.settings import own_settings
@@ -58,8 +58,9 @@ def draw_slice(
     figure = Figure(figsize=(7.4, 5.2))
     ax = figure.add_subplot()
     if volume:
-        bar = colour_probability(figure, ax, x, y, _probability(volume, fixed, value), volume.samples)
-        handles = _edges(ax, section, x, y, "boundary without the spread")
+        probability = _probability(volume, fixed, value)
+        bar = colour_probability(figure, ax, x, y, probability, volume.samples)
+        handles = _edges(ax, section, x, y, "boundary without the spread") + shares(probability)
     else:
         growth = growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
         bar = colour_growth_rate(figure, ax, x, y, growth)
@@ -67,6 +68,7 @@ def draw_slice(
     if subject.axes == AXES and fixed == "V" and handles:
         ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
         handles += straight_fork(ax, subject.family.bicycle)
+    handles += _own_design(ax, section)
     _decorate(ax, subject, section)
     arrange_plane(figure, ax, bar, legend_below(figure, handles))
     return figure
@@ -119,6 +121,26 @@ def _edges(ax: Axes, section: Section, x: Floats, y: Floats, word: str = "bounda
             draw_on_white(ax, curves, lw=1.8, color="black", ls=style)
             handles.append(entry(f"{label} {word}", color="black", ls=style))
     return handles
+
+
+def _own_design(ax: Axes, section: Section) -> list[Line2D]:
+    """Mark the bicycle's own design, where the plane has it; what the legend says of it."""
+    names = [parameter.name for parameter in section.family.parameters]
+    own = {n: v for n, v in zip(names, section.family.own, strict=True) if v is not None}
+    if len(own) < len(names):
+        return []
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    if section.fixed == "V":
+        x, y = (own[name] for name in section.axes)
+        if not (left <= x <= right and bottom <= y <= top):
+            return []
+        style: dict[str, Any] = {"marker": "*", "ms": 15, "mfc": OWN, "mec": "black", "ls": "none"}
+        return ax.plot(x, y, label="own design", zorder=5, **style)
+    here = own.pop(section.fixed)
+    (x,) = own.values()
+    if not (left <= x <= right and np.isclose(here, section.value, rtol=1e-9, atol=0)):
+        return []
+    return [ax.axvline(x, color=OWN, lw=1.6, label="own design", zorder=1.5)]
 
 
 def _decorate(ax: Axes, subject: Subject, section: Section) -> None:

@@ -37,7 +37,7 @@ from bikestab.volume import Volume
 
 HERE = Path(__file__).parent
 CONFIGS = HERE.parents[1] / "configs"
-COLOURS = 160  # of a picture: a quarter of the bytes, and no eye sees it
+COLOURS = 200  # of a picture: a third of the bytes, and no eye sees it
 
 
 def figures() -> Iterator[tuple[str, Figure]]:

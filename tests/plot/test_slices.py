@@ -235,3 +235,49 @@ def test_the_line_of_straight_forks(draw):
     shown = np.isfinite(sigma)
     assert shown.sum() > 20
     np.testing.assert_allclose(sigma[shown], 0.35 * np.tan(lam[shown]) / 1.04, rtol=1e-12)
+
+
+# --- scale and marks
+
+LAM, SIGMA = np.pi / 10, 0.08 / 1.02  # of the benchmark bicycle
+
+
+def test_every_picture_has_one_scale_that_is_equal_on_both_sides_of_zero(draw):
+    norms = [
+        mesh.norm
+        for fixed, value in (("lam", 0.2), ("V", 5.0))
+        for mesh in draw(fixed, value).axes[0].collections
+        if isinstance(mesh, QuadMesh)
+    ]
+    rates = np.array([0.0, 0.02, 0.3, 4.0])
+    for norm in norms:
+        np.testing.assert_allclose(norm(rates) - 0.5, 0.5 - norm(-rates), atol=1e-12)
+        np.testing.assert_array_equal(norm(rates), norms[0](rates))
+    bar = draw("lam", 0.2).axes[1]
+    labels = [label.get_text() for label in bar.get_yticklabels()]
+    assert (labels[0], labels[-1]) == ("≤−5", "≥5")
+
+
+@pytest.mark.parametrize(
+    ("fixed", "value", "x", "y"),
+    [
+        ("V", 5.0, LAM, SIGMA),
+        ("lam", LAM, SIGMA, None),
+        ("sigma", SIGMA, LAM, None),
+        ("lam", 0.2, None, None),
+    ],
+)
+def test_own_design(tmp_path, fixed, value, x, y):
+    """A point in a plane of one speed, a line where the plane has its tilt or trail, and else nothing."""
+    text = (
+        "bicycle: meijaard2007\ngrid:\n  lam: {start: 0, stop: 0.4, num: 3}\n"
+        "  sigma: {start: 0, stop: 0.15, num: 3}\n  V: {start: 0, stop: 15, num: 3}\n"
+        f"output: {tmp_path}\n"
+    )
+    with Volume(run_scan(parse_config(yamltext.parse(text, "scan.yaml"))).path) as volume:
+        figure = draw_slice(volume, fixed, value)
+    marks = [line for line in figure.axes[0].lines if line.get_label() == "own design"]
+    assert ("own design" in legend(figure)) == (x is not None) == bool(marks)
+    for mark in marks:
+        assert mark.get_xdata()[0] == pytest.approx(x)
+        assert y is None or mark.get_ydata()[0] == pytest.approx(y)
