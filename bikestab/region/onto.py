@@ -10,39 +10,54 @@ from bikestab.model import Floats
 
 Function = Callable[[Floats], Floats]  # points (2, n) → values (n,)
 ROUNDS = 4  # of Newton's method: from a grid's step to rounding
-_STEPS = 15  # within a bracket, which is enough but where a function jumps
+_STEPS = 12  # within a bracket, which is enough but where a function jumps
 _SECTIONS = 16  # into which what is left of a bracket is cut at a time
-_CLOSE = 2.0**-53
+_CLOSE = 2.0**-46  # of a bracket, of a hundredth of the box: its coordinates are no finer
 
 
 def between(function: Function, low: Floats, high: Floats) -> Floats:
     """The points (2, n) between low and high (2, n) where a function changes its sign; it may jump there.
 
-    By the Illinois method (Dowell and Jarratt 1971): the bracket's line, with half the value at an end that
-    has stayed. What is no number counts as beyond the change.
+    By inverse quadratic interpolation where it may be trusted and halving elsewhere (Chandrupatla 1997). What
+    is no number counts as beyond the change.
     """
     if not low.shape[1]:
         return low
-    a, b = np.zeros(low.shape[1]), np.ones(low.shape[1])
-    at_a, at_b = function(low), function(high)
-    last, found = np.full(len(a), 0.5), np.full(len(a), 0.5)
+    b, at_b = np.zeros(low.shape[1]), function(low)
+    a, at_a = np.ones(low.shape[1]), function(high)
+    first = np.sign(at_b)
+    t, found = np.full(len(a), 0.5), np.full(len(a), 0.5)
     busy = np.arange(len(a))
-    for step in range(_STEPS):
-        with np.errstate(all="ignore"):
-            t = (a * at_b - b * at_a) / (at_b - at_a) if step % 3 != 2 else 0.5 * (a + b)
-        t = np.where((a < t) & (t < b), t, 0.5 * (a + b))
-        value = function(low[:, busy] + t * (high - low)[:, busy])
-        left = np.sign(value) == np.sign(at_a)
-        at_a, at_b = np.where(left, value, 0.5 * at_a), np.where(left, 0.5 * at_b, value)
-        a, b = np.where(left, t, a), np.where(left, b, t)
-        found[busy] = t
-        on = (value != 0) & (np.abs(t - last) > _CLOSE) & (b - a > _CLOSE)
-        busy, a, b, at_a, at_b, last = (each[on] for each in (busy, a, b, at_a, at_b, t))
+    for _ in range(_STEPS):
+        x = b + t * (a - b)
+        value = function(low[:, busy] + x * (high - low)[:, busy])
+        left = np.sign(value) == np.sign(at_b)
+        c, at_c = np.where(left, b, a), np.where(left, at_b, at_a)
+        a, at_a = np.where(left, a, b), np.where(left, at_a, at_b)
+        b, at_b = x, value
+        found[busy] = np.where(np.abs(at_a) < np.abs(at_b), a, b)
+        least = _CLOSE / np.abs(a - b)
+        on = (value != 0) & (least < 0.5)
+        busy, a, b, c, at_a, at_b, at_c, least = (
+            each[on] for each in (busy, a, b, c, at_a, at_b, at_c, least)
+        )
         if not len(busy):
             break
+        t = np.clip(_part(a, b, c, at_a, at_b, at_c), least, 1 - least)
     else:
-        found[busy] = _cut(function, low[:, busy], high[:, busy], a, b, np.sign(at_a))
+        beyond = np.sign(at_b) != first[busy]
+        inner, outer = np.where(beyond, a, b), np.where(beyond, b, a)
+        found[busy] = _cut(function, low[:, busy], high[:, busy], inner, outer, first[busy])
     return low + found * (high - low)
+
+
+def _part(a: Floats, b: Floats, c: Floats, at_a: Floats, at_b: Floats, at_c: Floats) -> Floats:
+    """How far of the way from b to a the change is, by the values there and at c, one of the ends before."""
+    with np.errstate(all="ignore"):
+        x, y = (b - a) / (c - a), (at_b - at_a) / (at_c - at_a)
+        t = at_b / (at_a - at_b) * at_c / (at_a - at_c)
+        t = t + (c - b) / (a - b) * at_b / (at_c - at_b) * at_a / (at_c - at_a)
+    return np.where((y * y < x) & ((1 - y) ** 2 < 1 - x) & np.isfinite(t), t, 0.5)
 
 
 def _cut(function: Function, low: Floats, high: Floats, a: Floats, b: Floats, sign: Floats) -> Floats:
