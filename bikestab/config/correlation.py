@@ -67,13 +67,16 @@ def with_known(given: Any, bicycle: Any, folder: str | Path = "") -> Any:
     """An ensemble as a config has it, with what a covariance file and the bicycle's own file know of it.
 
     ``covariance`` is the path of a CSV file: names in the first row, then a row of the matrix for each. What
-    it names, and has no distribution, is drawn as normal around the bicycle's own value. Correlations of the
-    bicycle's file count where the config gives none.
+    it names, and has no distribution, is drawn as normal around the bicycle's own value. For each pair the
+    config's own ``correlation`` counts, then the covariance file's; those of the bicycle's file do where the
+    config has no ``correlation`` at all, and the covariance file does not tell of the pair.
     """
     if not isinstance(given, dict) or not isinstance(bicycle, Bicycle):
         return given
     ensemble = {key: value for key, value in given.items() if key != "covariance"}
-    known: dict[tuple[str, str], float] = dict(bicycle.correlations)
+    known: dict[frozenset[str], float] = {}
+    if "correlation" not in given:
+        known = {frozenset(pair): r for pair, r in bicycle.correlations.items()}
     if "covariance" in given:
         names, matrix = _matrix(given["covariance"], folder)
         deviations = np.sqrt(np.diag(matrix))
@@ -85,11 +88,26 @@ def with_known(given: Any, bicycle: Any, folder: str | Path = "") -> Any:
             ensemble.setdefault(name, {"normal": [own, float(deviation)]})
         for i, a in enumerate(names):
             for j, b in enumerate(names[:i]):
-                known[b, a] = float(np.clip(matrix[i, j] / (deviations[i] * deviations[j]), -1, 1))
-    own_pairs = {f"[{a}, {b}]": r for (a, b), r in known.items() if {a, b} <= ensemble.keys() and r}
-    if own_pairs and "correlation" not in given:
-        ensemble["correlation"] = own_pairs
+                r = matrix[i, j] / (deviations[i] * deviations[j])
+                known[frozenset((b, a))] = float(np.clip(r, -1, 1))
+    typed = ensemble.get("correlation", {})
+    if isinstance(typed, Mapping):  # what is none is told of later
+        pairs = {_pair(str(key)) for key in typed}
+        linked = {
+            f"[{', '.join(sorted(pair, key=[*ensemble].index))}]": r
+            for pair, r in known.items()
+            if r and pair <= ensemble.keys() and pair not in pairs
+        }
+        if linked:
+            ensemble["correlation"] = {**linked, **typed}
     return ensemble
+
+
+def _pair(key: str) -> frozenset[str]:
+    try:
+        return frozenset(pair_of(key))
+    except InputError:  # told of with its key, later
+        return frozenset()
 
 
 def _matrix(path: Any, folder: str | Path) -> tuple[list[str], Any]:

@@ -66,6 +66,29 @@ def test_a_covariance_file():
         assert words in message(text)
 
 
+def test_a_covariance_file_with_correlations_of_the_config():
+    """Pair by pair: the config's count before the file's, whichever name is first, and the others stay."""
+    Path("cov.csv").write_text("mB,IBxx,xB\n16,3.2,0.04\n3.2,1,0\n0.04,0,0.0004\n")
+    text = GOOD.replace("  mB: {normal: [85, 4]}\n  IBxx: {normal: [9.2, 1]}\n", "  covariance: cov.csv\n")
+    for typed, pairs in (
+        ("{[xB, IBxx]: 0.1}", {("mB", "IBxx"): 0.8, ("mB", "xB"): 0.5, ("xB", "IBxx"): 0.1}),
+        ("{[IBxx, mB]: 0.1}", {("IBxx", "mB"): 0.1, ("mB", "xB"): 0.5}),
+        ("{[mB, IBxx]: 0}", {("mB", "IBxx"): 0, ("mB", "xB"): 0.5}),
+        ("{}", {("mB", "IBxx"): 0.8, ("mB", "xB"): 0.5}),
+    ):
+        config = load(text + f"  correlation: {typed}\n")
+        assert config.ensemble.pairs == pytest.approx(pairs)
+        assert correlation(config.ensemble) == pytest.approx(
+            pairs.get(("mB", "IBxx"), pairs.get(("IBxx", "mB"))), abs=0.03
+        )
+        again = ScanConfig(**{name: getattr(config, name) for name in config.model_fields_set})
+        assert load(again.text).sha256 == config.sha256
+    assert "'mB' is no pair" in message(text + "  correlation: {mB: 0.5}\n")
+    assert "3 is not keys with values" in message(text + "  correlation: 3\n")
+    assert "given twice" in message(text + "  correlation: {[mB, xB]: 0.5, [xB, mB]: 0.5}\n")
+    assert "contradict" in message(text + "  correlation: {[mB, xB]: 0.99, [xB, IBxx]: -0.5}\n")
+
+
 def test_correlations_of_the_bicycles_own_file():
     numbers = {
         name: value for name, value in Bicycle.preset("dikarev1981").numbers().items() if value is not None
@@ -79,6 +102,9 @@ ensemble: {R1: {normal: [0.35, 0.01]}, R2: {normal: [0.35, 0.01]}, samples: 100}
 """
     drawn = load(text).ensemble.drawn
     np.testing.assert_allclose(drawn["R1"], drawn["R2"], rtol=1e-12)
+    Path("cov.csv").write_text("R2,R1\n0.0001,0.00002\n0.00002,0.0001\n")  # counts before the bicycle's
+    measured = text.replace("samples: 100}", "covariance: cov.csv, samples: 100}")
+    assert load(measured).ensemble.pairs == {("R1", "R2"): pytest.approx(0.2)}
     drawn = load(text, "ensemble.correlation={}").ensemble.drawn
     assert abs(np.corrcoef(drawn["R1"], drawn["R2"])[0, 1]) < 0.3
 
