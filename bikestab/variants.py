@@ -12,6 +12,7 @@ from bikestab.errors import InputError, nearest
 from bikestab.geometry import offset_of, tilt_from, trail_from
 from bikestab.limits import check_tilt, check_trail
 from bikestab.machines import Machines
+from bikestab.notation import superseded
 
 TILT = {"lam": "steering-axis tilt [rad]", "head_angle": "head angle, 90° − tilt [rad]"}
 TRAIL = {"sigma": "trail divided by the wheelbase [1]", "trail": "trail along the ground [m]"}
@@ -140,7 +141,9 @@ def check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
     parts = {name: value for name, value in rest.items() if name not in given}
     machine = bicycle.replaced(given) if given else bicycle
     if parts:
-        Bicycle.from_mapping({**machine.numbers(), "lam": float(lam), "sigma": float(sigma), **parts})
+        gone = superseded(parts, "sigma")  # R1 and R2 by R
+        own = {name: value for name, value in machine.numbers().items() if name not in gone}
+        Bicycle.from_mapping({**own, "lam": float(lam), "sigma": float(sigma), **parts})
 
 
 def own_value(bicycle: Bicycle, name: str) -> float | None:

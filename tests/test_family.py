@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from bikestab.bicycle import Bicycle
+from bikestab.bicycle import PAPER, Bicycle
 from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.model import characteristic_table, exact_table
 from bikestab.region.curves import trace
 from bikestab.region.lines import stable_ranges
 from bikestab.speeds import intervals_of
+from bikestab.variants import FRONT, own_value
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
 OWN = DIKAREV.replaced({"lam": 0.3, "sigma": 0.1})
@@ -178,3 +179,28 @@ def test_any_two_of_the_25_broadcast_in_either_order():
             table = family.exact_table(X[:, np.newaxis], Y).value
             pairs = family.exact_table(np.repeat(X, 3), np.tile(Y, 2)).value
             np.testing.assert_array_equal(table.reshape(5, 4, -1), pairs, err_msg=f"{x} {y}")
+
+
+def test_whatever_is_offered_can_be_used():
+    """Each name, alone and with another, at the bicycle's own value or one beside it."""
+    for bicycle in (OWN, MEIJAARD):
+        for name in {**PAPER, **bicycle.notation, **FRONT}:
+            own = own_value(bicycle, name)
+            x = 0.33 if own is None else own
+            for other in ("g", "delta"):
+                if name != other:
+                    Family(bicycle, x=name, y=other).check(x, 1.0)
+                    Family(bicycle, x=other, y=name).check(1.0, x)
+
+
+def test_one_radius_of_both_wheels_of_25_numbers():
+    family = Family(MEIJAARD, x="R", y="mB")
+    family.check(0.34, 90.0)
+    numbers = MEIJAARD.replaced({"mB": 90.0}).numbers()
+    machine = Bicycle.from_mapping({**numbers, "R1": 0.34, "R2": 0.34})
+    expected = exact_table(machine, MEIJAARD.lam, MEIJAARD.sigma).value
+    np.testing.assert_allclose(
+        family.table(0.34, 90.0), expected, rtol=1e-12, atol=1e-13 * np.abs(expected).max()
+    )
+    with pytest.raises(InputError, match="R"):
+        family.check(-0.34, 90.0)
