@@ -73,11 +73,11 @@ class Distribution(Strict):
         return self
 
     @property
-    def middle(self) -> float:
-        """Its mean, or the middle or median of one that has another shape."""
-        if self.uniform:
-            return 0.5 * (self.uniform[0] + self.uniform[1])
-        return (self.normal or self.lognormal or self.truncated)[0]
+    def median(self) -> float:
+        """Half of its values are below; the mean of a normal distribution, but for one with limits."""
+        if self.normal:
+            return self.normal[0]
+        return float(self.values(np.array([0.5]))[0])
 
     @property
     def _share(self) -> Floats:

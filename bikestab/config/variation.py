@@ -129,11 +129,11 @@ class Ensemble(Strict):
 
     def parted(self, bicycle: Bicycle, axes: Iterable[str]) -> tuple[dict[str, Floats], dict[str, Floats]]:
         """The samples of what the grid leaves open; and how far those of tilt, trail and offset, which its
-        ``axes`` give, are from their distribution's middle.
+        ``axes`` give, are from their distribution's median.
         """
         on_grid = fixed_by(bicycle, axes)
         away = {name for name in self.parameters if front_of(bicycle, name) in on_grid}
-        moves = {name: self.drawn[name] - self.parameters[name].middle for name in away}
+        moves = {name: self.drawn[name] - self.parameters[name].median for name in away}
         return {name: x for name, x in self.drawn.items() if name not in away}, dict(sorted(moves.items()))
 
     def machines(self, bicycle: Bicycle) -> Machines:

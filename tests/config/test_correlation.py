@@ -181,3 +181,21 @@ def test_draws_of_the_grids_own_axes_are_spread_around_each_point():
         )
         with bs.scan(load(alone), force=True).open() as volume:
             np.testing.assert_allclose(volume.read("probability")[0], whole[i], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("distribution", "expected"),
+    [
+        ("{truncated: [0.3, 0.05, 0.3, 0.4]}", stats.truncnorm(0, 2, 0.3, 0.05)),
+        ("{truncated: [0.2, 0.1, 0.3, 0.4]}", stats.truncnorm(1, 2, 0.2, 0.1)),  # its mean is outside
+        ("{truncated: [0.3, 0.05, 0.2, 0.4]}", stats.truncnorm(-2, 2, 0.3, 0.05)),
+        ("{lognormal: [0.3, 0.1]}", stats.lognorm(0.1, 0, 0.3)),
+        ("{uniform: [0.25, 0.4]}", stats.uniform(0.25, 0.15)),
+        ("{normal: [0.3, 0.01]}", stats.norm(0.3, 0.01)),
+    ],
+)
+def test_half_of_the_machines_are_on_either_side_of_a_point_of_the_grid(distribution, expected):
+    ensemble = load(GOOD.replace("  mB: {normal: [85, 4]}\n", f"  lam: {distribution}\n")).ensemble
+    assert ensemble.parameters["lam"].median == pytest.approx(expected.median(), rel=1e-12)
+    _, away = ensemble.parted(MEIJAARD, ("lam", "sigma"))
+    assert np.mean(away["lam"] < 0) == pytest.approx(0.5, abs=0.015)
