@@ -23,7 +23,8 @@ def command(volumes: tuple[str, ...], output: str) -> None:
     the machine's equations. Several volumes are tabs of one page, and its table compares them; the axes of a
     sweep are sliders.
 
-    Each VOLUME is a volume.h5 or its folder. Needs the extra: pip install "bikestab[report]".
+    Each VOLUME is a volume.h5 or its folder, over tilt and trail and of a machine without feedback.
+    Needs the extra: pip install "bikestab[report]".
 
     \b
     Examples:

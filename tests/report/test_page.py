@@ -133,6 +133,18 @@ def test_sliders_numbers_and_words_agree(opened):
     assert float(command[command.index("--lam") + 1]) == pytest.approx(lam, abs=1e-12)
 
 
+def test_what_is_typed_beyond_the_box_is_cut_and_said(opened):
+    page = opened()
+    page.fill("#head-angle", "20")
+    page.press("#head-angle", "Enter")
+    drawn(page)
+    most = float(page.get_attribute("#lam", "max"))
+    assert float(page.input_value("#head-angle")) == pytest.approx(90 - np.degrees(most), abs=0.01)
+    assert "outside" in page.inner_text("#limit")
+    set_slider(page, "lam", 0.3)
+    assert page.inner_text("#limit") == ""
+
+
 def test_a_click_on_the_plane_chooses_a_design(opened):
     page = opened()
     box = page.locator("#plane .nsewdrag").first.bounding_box()

@@ -240,6 +240,7 @@ async function draw() {
 
 /** Take a design, kept within the box. @param {Partial<{ lam: number, sigma: number, V: number }>} given */
 function choose(given) {
+  element("limit").textContent = "";
   for (const name of /** @type {const} */ (["lam", "sigma", "V"])) {
     const value = given[name];
     if (value === undefined || !Number.isFinite(value)) continue;
@@ -329,7 +330,15 @@ function listen() {
     offset: (/** @type {number} */ x) => ({ sigma: sigmaOfOffset(machine(), state.lam, x / 1000) }),
   });
   for (const [id, meant] of Object.entries(typed)) {
-    input(id).addEventListener("change", () => choose(meant(input(id).valueAsNumber)));
+    input(id).addEventListener("change", () => {
+      const wanted = meant(input(id).valueAsNumber);
+      choose(wanted);
+      // what lies outside of the box is cut to it, and the field says what it was cut to
+      input(id).blur();
+      const [[name, value]] = Object.entries(wanted);
+      const [low, top] = volume().box[/** @type {"lam" | "sigma"} */ (name)];
+      element("limit").textContent = value < low || value > top ? "that is outside of this volume's box: its limit is shown" : "";
+    });
   }
   element("own").addEventListener("click", () => {
     const { own } = machine();
