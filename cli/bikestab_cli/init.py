@@ -36,9 +36,13 @@ def command(path: str, name: str, uncertain: bool, force: bool) -> None:
     """
     from bikestab.config.template import starting_config
     from bikestab.errors import InputError
-    from bikestab.files import to_stdout, written
+    from bikestab.files import to_stdout, unwritable, written
 
     text = starting_config(name, path, uncertain=uncertain)
+    try:
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        raise unwritable(path, error) from None
     check_files(path)
     if Path(path).is_file() and not force:
         raise InputError("exists already", place=path, hint="--force replaces it")

@@ -1,4 +1,4 @@
-"""How far stable speeds are known, in a line or a paragraph."""
+"""How far stable speeds are known, in a few lines or a paragraph."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ if TYPE_CHECKING:
     from bikestab.design.spread import End, Spread
 
 
-def in_one_line(result: Spread) -> str:
-    """How many machines are stable somewhere, and where nine tenths of their ends lie."""
+def known_lines(result: Spread) -> list[str]:
+    """How many machines are stable somewhere; each end ± its deviation, and where nine tenths of them lie."""
     exists = f"stable speeds exist in {result['exists']:.1%} of machines within the uncertainties"
     if not result["exists"]:
-        return exists
-    return f"{exists}; {_quantiles('V1', result['V1'])}, {_quantiles('V2', result['V2'])} m/s (90 %)"
+        return [exists]
+    return [exists, *(_known(name, end) for name, end in _ends(result))]
 
 
 def told_spread(result: Spread) -> str:
     """The same, with the linear rule beside it and the reasons why that is wrong."""
     names = ", ".join(f"{name} ± {sd:.4g}" for name, sd in result["deviations"].items())
-    lines = [f"uncertain: {names}", *in_one_line(result).split("; ")]
-    lines.append(f"standard deviations: {_deviations('V1', result['V1'])}; {_deviations('V2', result['V2'])}")
+    lines = [f"uncertain: {names}", *known_lines(result)]
+    lines.append("standard deviations: " + "; ".join(_deviations(name, end) for name, end in _ends(result)))
     if result["refused"]:
         total = result["samples"] + result["refused"]
         lines.append(f"{result['refused']} of {total} drawn machines cannot exist, and are left out")
@@ -30,15 +30,25 @@ def told_spread(result: Spread) -> str:
     return "\n".join(lines)
 
 
-def _quantiles(name: str, end: End) -> str:
-    low, middle, high = (_speed(end[key]) for key in ("low", "median", "high"))
-    return f"{name} = {middle} [{low}, {high}]"
+def _ends(result: Spread) -> tuple[tuple[str, End], tuple[str, End]]:
+    return ("V1", result["V1"]), ("V2", result["V2"])
 
 
-def _speed(value: float | None) -> str:
+def _known(name: str, end: End) -> str:
+    """An end of the machine as it is, the sampled deviation of it, and where nine tenths of the ends lie."""
+    own, sampled = end["own"], end["sampled"]
+    digits = max(2, -math.floor(math.log10(sampled))) if sampled else 2
+    nine_tenths = f"90 % within [{_speed(end['low'], digits)}, {_speed(end['high'], digits)}] m/s"
+    if own is None or math.isinf(own):
+        return f"{name} {_speed(own, digits)}, {nine_tenths}"
+    deviation = "" if sampled is None else f" ± {sampled:.{digits}f}"
+    return f"{name} = {own:.{digits}f}{deviation} m/s, {nine_tenths}"
+
+
+def _speed(value: float | None, digits: int) -> str:
     if value is None:
         return "none"
-    return "unbounded" if math.isinf(value) else f"{value:.2f}"
+    return "unbounded" if math.isinf(value) else f"{value:.{digits}f}"
 
 
 def _deviations(name: str, end: End) -> str:

@@ -30,14 +30,15 @@ class Found(NamedTuple):
 
 def told_one(found: Found, model: Model, single: bool) -> str:
     """The table of one machine, what is open in it, and what would help a ``single`` unstable design."""
-    from bikestab_cli.spread_words import in_one_line
+    from bikestab_cli.spread_words import known_lines
 
     machine, answers, spreads = found
     changed = f" ({machine.changes})" if machine.set else ""
     parts = [heading(machine.bicycle, model) + changed + "\n", table(_HEAD, _rows(answers, 12))]
     notes = [f"marginal at {_design(each)}: {each['reason']}" for each in answers if each["marginal"]]
     for answer, known in zip(answers, spreads, strict=False):
-        notes.append(("" if single else f"{_design(answer)}: ") + in_one_line(known))
+        lines = known_lines(known)
+        notes += lines if single else [f"{_design(answer)}: {'; '.join(lines)}"]
     if single and answers[0]["nearest"]:
         notes.append("\n" + _advice(answers[0], machine.bicycle, model))
     return "\n".join([*parts, *map(prose, notes)])
@@ -45,14 +46,16 @@ def told_one(found: Found, model: Model, single: bool) -> str:
 
 def told_all(found: list[Found], model: Model) -> str:
     """One table of several machines, and what is open in it."""
-    from bikestab_cli.spread_words import in_one_line
+    from bikestab_cli.spread_words import known_lines
 
     rows, notes = [], []
     for machine, answers, spreads in found:
         lines = _rows(answers, _FEWER)
         rows += [[machine.stacked if i == 0 else "", *line] for i, line in enumerate(lines)]
         open_ = [(answer, f"marginal: {answer['reason']}") for answer in answers if answer["marginal"]]
-        known = [(answer, in_one_line(each)) for answer, each in zip(answers, spreads, strict=False)]
+        known = [
+            (answer, "; ".join(known_lines(each))) for answer, each in zip(answers, spreads, strict=False)
+        ]
         notes += [f"{machine.words} at {_design(answer)}: {text}" for answer, text in (*open_, *known)]
     return "\n".join([f"{model} model\n", table(["machine", *_HEAD], rows, fold=0), *map(prose, notes)])
 

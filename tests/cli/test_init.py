@@ -66,3 +66,17 @@ def test_uncertain_radii_of_both_wheels(bikestab):
     code, text, err = bikestab("convert", "radii.yaml")
     assert (code, text.count("0.35 +/- 0.01")) == (0, 2)
     assert "note: correlations of the uncertainties cannot be written; left out\n" in err
+
+
+def test_a_missing_folder_is_made(bikestab):
+    assert bikestab("init", "sub/deep/mine.yaml") == (
+        0, "sub/deep/mine.yaml; now 'bikestab scan sub/deep/mine.yaml'\n", "",
+    )  # fmt: skip
+    assert load_config("sub/deep/mine.yaml").machine.name == "dikarev1981"
+    Path("file").write_text("")
+    code, out, err = bikestab("init", "file/mine.yaml")
+    assert (code, out) == (2, "")
+    assert err.startswith("error: file/mine.yaml: cannot be written")
+    code, _, err = bikestab("init", "other/mine.yaml", "--bicycle", "none.yaml")
+    assert code == 2
+    assert not Path("other").exists()
