@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
-from bikestab.errors import InputError, nearest
+from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.fields import FIELDS, Axes, Axis
 from bikestab.formats.kinds import expected
 from bikestab.hdf5 import open_file, text_of
 from bikestab.layout import bicycle_of, check_ends, check_values, grid_axes, machine_names, sweep_names
 from bikestab.model import Floats, Model
+from bikestab.sweeps import chosen
 from bikestab.volumecheck import check_volume
 from bikestab.watched import watched
 
@@ -130,23 +131,9 @@ class Volume:
 
         Raises InputError for an unknown or missing axis, and for a value that it does not have.
         """
-        for name in values:
-            if name not in self.swept:
-                hint = nearest(name, self.swept) if self.swept else "its config has no sweep"
-                raise InputError(f"has no axis {name!r}", place=str(self.path), hint=hint)
-        chosen = copy(self)
-        for name, axis in self.swept.items():
-            allowed = ", ".join(f"{value:g}" for value in axis)
-            if name not in values:
-                problem = f"has several machines, with {name} = {allowed}"
-                hint = f"choose one, for example --at {name}={axis[0]:g}"
-                raise InputError(problem, place=str(self.path), hint=hint)
-            near = int(np.argmin(np.abs(axis - values[name])))
-            if not np.isclose(axis[near], values[name], rtol=1e-9, atol=0):
-                problem = f"has no {name} = {values[name]:g}"
-                raise InputError(problem, place=str(self.path), hint=f"allowed: {allowed}")
-            chosen._chosen = {**chosen._chosen, name: near}
-        return chosen
+        machine = copy(self)
+        machine._chosen = {**self._chosen, **chosen(self.swept, values, str(self.path))}
+        return machine
 
     @property
     def chosen(self) -> bool:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,11 +17,12 @@ from bikestab_cli.options import (
     equation_options,
     json_option,
     load_bicycle,
+    tell_once,
     warn,
 )
 from bikestab_cli.output import print_json, tell_file
 
-from bikestab.errors import InputError
+from bikestab.errors import InputError, nearest
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -79,6 +81,9 @@ def command(
     their union. It is exact along the speed and a sum over designs: those of the grids where these are the
     same, else 81 × 81 in what both have of a box, for bicycles λ = 0 ... 0.6, σ = 0 ... 0.3 and 0 ... 30 m/s.
 
+    --at chooses of a sweep, in each of A and B that has its axis. --model, --delta and --rider are for
+    bicycles: configs and volumes say these themselves.
+
     --within is per cent of each end of A, and of the union; as a speed it is the distance of each end, and
     the mean distance of the regions' speeds. Other ends, or another number of intervals, are always beyond
     it. Exit code 1 if something is.
@@ -95,7 +100,9 @@ def command(
     from bikestab.changes import compare
 
     check_files(output)
-    found = [_opened(name, given, model, delta, machine) for name in (one, other)]
+    asked = _Asked(given, model, delta, machine)
+    found = [_opened(name, asked) for name in (one, other)]
+    _check_used(asked, found)
     box, (A, B) = _box(found)
     record, region = compare(A, B, box, within)
     files = {}
@@ -114,6 +121,15 @@ def command(
     click.get_current_context().exit(1 if record["holds"] is False else 0)
 
 
+class _Asked(NamedTuple):
+    """What the options say of both: the design, the equations, and the machine of a sweep."""
+
+    given: Given
+    model: Model
+    delta: float | None
+    machine: dict[str, float]
+
+
 class _Axes(NamedTuple):
     """The designs and the box of a config or a volume."""
 
@@ -122,18 +138,39 @@ class _Axes(NamedTuple):
     ends: tuple[tuple[float, float], ...]
 
 
-def _opened(
-    name: str, given: Given, model: Model, delta: float | None, machine: dict[str, float]
-) -> tuple[Side, _Axes | None]:
-    """What a name stands for, and its grid if it has one."""
+class _Found(NamedTuple):
+    """What a name stands for, its grid if it has one, and its sweep's axes; None of a bicycle's file."""
+
+    side: Side
+    axes: _Axes | None
+    swept: Collection[str] | None
+
+
+def _opened(name: str, asked: _Asked) -> _Found:
     from bikestab.formats.kinds import kind_of
 
     if Path(name).is_dir() or kind_of(name) == "volume":
-        return _volume(name, given, machine)
+        return _volume(name, asked)
     if kind_of(name) == "config":
-        return _config(name, given)
-    bicycle = load_bicycle(name, delta)
-    return _side(name, bicycle, model, given), None
+        return _config(name, asked)
+    bicycle = load_bicycle(name, asked.delta)
+    return _Found(_side(name, bicycle, asked.model, asked.given), None, None)
+
+
+def _check_used(asked: _Asked, found: Sequence[_Found]) -> None:
+    """Refuse an option that says nothing of either, and tell of which it says nothing."""
+    context = click.get_current_context()
+    axes = [name for each in found for name in each.swept or ()]
+    for name in sorted(asked.machine.keys() - axes):
+        problem = f"neither has an axis {name!r}; {nearest(name, axes) if axes else 'they have no sweep'}"
+        raise click.BadParameter(problem, param_hint="--at")
+    default = click.core.ParameterSource.DEFAULT
+    options = [name for name in ("model", "delta", "rider") if context.get_parameter_source(name) != default]
+    others = [each.side.name for each in found if each.swept is not None]
+    if options and len(others) == len(found):
+        raise click.UsageError(f"--{options[0]} is for a bicycle, and these say it themselves", context)
+    for option, name in product(options, others):
+        tell_once(f"note: {name} says itself what --{option} says; it holds for the other only")
 
 
 def _side(name: str, bicycle: Bicycle, model: Model, given: Given, stored: Any = None) -> Side:
@@ -143,31 +180,38 @@ def _side(name: str, bicycle: Bicycle, model: Model, given: Given, stored: Any =
     return Side(name, bicycle, model, design_chosen(bicycle, given) if own or given else None, stored)
 
 
-def _volume(name: str, given: Given, machine: dict[str, float]) -> tuple[Side, _Axes]:
+def _volume(name: str, asked: _Asked) -> _Found:
     from bikestab.volume import Volume
 
     with Volume(name) as whole:
-        opened = whole.at(machine)
+        opened = whole.at({axis: v for axis, v in asked.machine.items() if axis in whole.swept})
         _check_axes(name, opened.axes)
         axes = [opened.axis(axis) for axis in ("lam", "sigma", "V")]
         stored = opened.read("V1"), opened.read("V2")
-        side = _side(name, opened.bicycle, opened.model, given, stored)
-    return side, _Axes(axes[0], axes[1], tuple((float(x[0]), float(x[-1])) for x in axes))
+        side = _side(name, opened.bicycle, opened.model, asked.given, stored)
+        ends = tuple((float(x[0]), float(x[-1])) for x in axes)
+        return _Found(side, _Axes(axes[0], axes[1], ends), [*whole.swept])
 
 
-def _config(name: str, given: Given) -> tuple[Side, _Axes | None]:
+def _config(name: str, asked: _Asked) -> _Found:
     from bikestab.config.file import load_checked
     from bikestab.config.scanconfig import ScanConfig
+    from bikestab.sweeps import chosen
 
     config = load_checked(name)
-    warn(config.machine)
-    side = _side(name, config.machine, config.model, given)
     if not isinstance(config, ScanConfig):
-        return side, None
+        warn(config.machine)
+        return _Found(_side(name, config.machine, config.model, asked.given), None, ())
+    swept = {axis.name: axis.values for axis in config.axes}
+    numbers = chosen(swept, {axis: v for axis, v in asked.machine.items() if axis in swept}, name)
+    values = {axis: float(swept[axis][i]) for axis, i in numbers.items()}
+    bicycle = next(member.bicycle for member in config.members if member.values == values)
+    warn(bicycle)
     grid = config.grid
     _check_axes(name, grid.names)
     ends = tuple(grid.ends(axis) for axis in ("lam", "sigma", "V"))
-    return side, _Axes(grid.values("lam"), grid.values("sigma"), ends)
+    axes = _Axes(grid.values("lam"), grid.values("sigma"), ends)
+    return _Found(_side(name, bicycle, config.model, asked.given), axes, [*swept])
 
 
 def _check_axes(name: str, axes: Sequence[str]) -> None:
@@ -176,13 +220,13 @@ def _check_axes(name: str, axes: Sequence[str]) -> None:
         raise InputError(problem, place=name, hint="only designs of tilt and trail are compared")
 
 
-def _box(found: Sequence[tuple[Side, _Axes | None]]) -> tuple[Box, list[Side]]:
+def _box(found: Sequence[_Found]) -> tuple[Box, list[Side]]:
     """What both have of the designs and speeds; of other designs the speeds are computed anew."""
     import numpy as np
 
     from bikestab.comparison import Box, box_of
 
-    known = [axes for _, axes in found if axes]
+    known = [each.axes for each in found if each.axes]
     ends: Any = BOX
     if known:
         both = [zip(*pairs, strict=True) for pairs in zip(*(axes.ends for axes in known), strict=True)]
@@ -195,7 +239,7 @@ def _box(found: Sequence[tuple[Side, _Axes | None]]) -> tuple[Box, list[Side]]:
     same = first and all(
         np.array_equal(axes.lam, first.lam) and np.array_equal(axes.sigma, first.sigma) for axes in known
     )
-    sides = [side for side, _ in found]
+    sides = [each.side for each in found]
     if first and same:
         return Box(first.lam, first.sigma, ends), sides
     return box_of(ends), [side._replace(stored=None) for side in sides]

@@ -149,3 +149,59 @@ def test_mistakes(bikestab, args, words):
     code, out, err = bikestab("compare", *args)
     assert (code, out) == (2, "")
     assert words in err
+
+
+def swept(name, *values):
+    values = ", ".join(map(str, values))
+    Path(name).write_text(f"bicycle: meijaard2007\n{GRID}sweep: {{delta: [{values}]}}\n", "utf-8")
+
+
+def test_the_machine_of_a_sweep(bikestab):
+    """Each side is the machine at --at, as one of its own config would be."""
+    swept("sw.yaml", 0, 1)
+    swept("more.yaml", 1, 4, 6)
+    Path("b.yaml").write_text("bicycle: meijaard2007\ndelta: 1\n" + GRID, "utf-8")
+    code, _, err = bikestab("compare", "more.yaml", "sw.yaml", "--within", "1%")
+    assert code == 2
+    assert "more.yaml: has several machines, with delta = 1, 4, 6\n  choose one, for example --at" in err
+    code, _, err = bikestab("compare", "more.yaml", "sw.yaml", "--at", "delta=4")
+    assert code == 2
+    assert "sw.yaml: has no delta = 4\n  allowed: 0, 1" in err
+    assert bikestab("scan", "sw.yaml", "--quiet")[0] == 0
+    for one, other in (("more.yaml", "b.yaml"), ("b.yaml", "sw.yaml"), ("more.yaml", "out/sw")):
+        code, found = result(
+            bikestab("compare", one, other, "--at", "delta=1", "--within", "0.001%", "--json")
+        )
+        assert (code, found["A"]["delta"], found["B"]["delta"]) == (0, 1, 1)
+    code, found = result(bikestab("compare", "sw.yaml", "b.yaml", "--at", "delta=0", "--json"))
+    assert (code, found["A"]["delta"], found["B"]["delta"]) == (0, 0, 1)
+    assert found["region"]["share"] > 0.01
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (("meijaard2007", "sharp1971", "--at", "foo=3"), "neither has an axis 'foo'; they have no sweep"),
+        (("sw.yaml", "meijaard2007", "--at", "detla=1"), "has several machines, with delta = 0, 1"),
+        (
+            ("sw.yaml", "un.yaml", "--at", "delta=1", "--at", "mB=80"),
+            "neither has an axis 'mB'; known: delta",
+        ),
+        (("un.yaml", "un.yaml", "--model", "refined"), "--model is for a bicycle"),
+        (("un.yaml", "un.yaml", "--delta", "1"), "--delta is for a bicycle"),
+    ],
+)
+def test_an_option_that_says_nothing_of_either_is_refused(bikestab, args, words):
+    swept("sw.yaml", 0, 1)
+    Path("un.yaml").write_text("bicycle: meijaard2007\nmodel: unrefined\n" + GRID, "utf-8")
+    code, out, err = bikestab("compare", *args)
+    assert (code, out) == (2, "")
+    assert words in err
+
+
+def test_an_option_that_says_nothing_of_one_is_told(bikestab):
+    Path("un.yaml").write_text("bicycle: meijaard2007\nmodel: unrefined\n" + GRID, "utf-8")
+    code, out, err = bikestab("compare", "un.yaml", "meijaard2007", "--delta", "1", "--json")
+    (found,) = json.loads(out)["results"]
+    assert (code, found["A"]["delta"], found["B"]["delta"]) == (0, 0, 1)
+    assert err == "note: un.yaml says itself what --delta says; it holds for the other only\n"
