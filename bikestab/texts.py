@@ -14,6 +14,7 @@ from bikestab.errors import InputError
 
 MOST_BYTES = 2_000_000
 PATIENCE = 30.0  # s that a pipe may take
+_MOST_NAMES = 8
 
 
 def read_text(path: str | Path, most: int = MOST_BYTES) -> str:
@@ -85,11 +86,13 @@ def _wait(descriptor: int, end: float) -> None:
 
 
 def _neighbours(path: Path) -> str:
-    folder = path.parent
+    folder, others = path.parent, {path.suffix} & {".txt", ".json", ".ini"}
     try:
-        names = sorted(p.name for p in folder.iterdir() if p.suffix in {".yaml", ".yml"})[:8]
+        names = sorted(p.name for p in folder.iterdir() if p.suffix in {".yaml", ".yml"} | others)
     except OSError as error:
         if isinstance(error, FileNotFoundError):
             return f"the folder {str(folder)!r} does not exist either"
         return f"the folder {str(folder)!r} cannot be read ({error.strerror})"
-    return f"YAML files in {str(folder)!r}: {', '.join(names) or 'none'}"
+    told = [*names[:_MOST_NAMES], *(["..."] if len(names) > _MOST_NAMES else [])]
+    kinds = " and ".join(["YAML", *others])
+    return f"{kinds} files in {str(folder)!r}: {', '.join(told) or 'none'}"

@@ -22,6 +22,7 @@ _PLAIN = re.compile(  # one entry of what ``plain`` reads
         | >-\n (?P<lines>(?:[ ]{2}\S.*\n)+) )""",
     re.ASCII | re.VERBOSE,
 )
+_OF_CONFIGS = "'bicycle: dikarev1981'; see 'bikestab init'"
 _BARE = re.compile(r"[A-Za-z_][\w./-]*", re.ASCII)  # needs no quotes, unless it is null, true or false
 _ESCAPED = re.compile(r"[^ -~\u00a0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]|[\u2028\u2029]")
 
@@ -82,8 +83,8 @@ def read(path: str | Path) -> Document:
     return parse(read_text(path), str(path))
 
 
-def parse(text: str, file: str) -> Document:
-    """Parse YAML ``text``; ``file`` is the name used in messages."""
+def parse(text: str, file: str, example: str = _OF_CONFIGS) -> Document:
+    """Parse YAML ``text``; ``file`` its name in messages, ``example`` the advice where it is no mapping."""
     root = compose(text, file)
     if not isinstance(root.data, dict):
         found = (
@@ -93,7 +94,7 @@ def parse(text: str, file: str) -> Document:
         raise InputError(
             f"holds {found}, not keys with values",
             place=file,
-            hint="a valid file has lines such as 'bicycle: dikarev1981'; see 'bikestab init'",
+            hint=f"a valid file has lines such as {example}",
         )
     return Document(file, text, root.data, root)
 

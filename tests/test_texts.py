@@ -93,6 +93,12 @@ def test_what_is_not_there(monkeypatch):
     assert told("a\0b").endswith("cannot be read (no file has such a name)")
     assert told("none/b") == "none/b: there is no such file\nthe folder 'none' does not exist either"
     assert told("b") == "b: there is no such file\nYAML files in '.': none"
+    for name in [*(f"{i}.yaml" for i in range(9)), "8.txt", "9.json"]:
+        Path(name).touch()
+    assert told("b.yaml").endswith("'.': 0.yaml, 1.yaml, 2.yaml, 3.yaml, 4.yaml, 5.yaml, 6.yaml, 7.yaml, ...")
+    for name in range(8):
+        Path(f"{name}.yaml").unlink()
+    assert told("b.txt").endswith("YAML and .txt files in '.': 8.txt, 8.yaml")
 
     def denied(folder):
         raise PermissionError(13, "Permission denied")

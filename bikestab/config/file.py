@@ -20,7 +20,9 @@ from bikestab.errors import InputError, dotted, nearest
 from bikestab.fields import AXES
 from bikestab.formats.kinds import expected
 from bikestab.notation import MEASURED
+from bikestab.presets import preset_names
 from bikestab.rider import flattened
+from bikestab.texts import is_there
 from bikestab.units import shown
 
 Form = TypeVar("Form", bound=Strict)
@@ -32,7 +34,7 @@ def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
     Raises InputError naming file, line, key, value and what is allowed.
     """
     with expected("config", path):
-        return parse_config(yamltext.read(path), overrides)
+        return parse_config(_read(path), overrides)
 
 
 def load_checked(path: str | Path) -> ScanConfig | CheckConfig:
@@ -41,7 +43,7 @@ def load_checked(path: str | Path) -> ScanConfig | CheckConfig:
     Raises as ``load_config``.
     """
     with expected("config", path):
-        document = yamltext.read(path)
+        document = _read(path)
         if isinstance(document.data, dict) and document.data.keys() <= CheckConfig.model_fields.keys():
             return _parsed(document, {}, CheckConfig)
         return parse_config(document)
@@ -54,6 +56,13 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
         key, document = _override(document, override)
         places[key] = f"--set {override}"
     return _parsed(document, places, ScanConfig).with_text(document.text)
+
+
+def _read(path: str | Path) -> yamltext.Document:
+    if str(path) in preset_names() and not is_there(path):
+        hint = f"'bikestab init --bicycle {path}' writes a config of it"
+        raise InputError("is a bicycle, not a scan's config", place=str(path), hint=hint)
+    return yamltext.read(path)
 
 
 def _parsed(document: yamltext.Document, places: dict[tuple[str | int, ...], str], form: type[Form]) -> Form:

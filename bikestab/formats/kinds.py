@@ -23,6 +23,7 @@ KINDS = {  # what it is called, and what takes it
         "a rider's body for the package yeadon",
         "the inertia that yeadon works out of it goes under rider: in a bicycle's file",
     ),
+    "certificate": ("a certificate", "bikestab certify --verify takes it"),
     "rider": ("a rider's file", "bikestab convert BICYCLE --rider takes it"),
 }
 _TOLD_BY_READER = {("bicycle", "bikecad")}
@@ -45,18 +46,20 @@ def is_jbike6(text: str) -> bool:
 
 
 def kind_of(path: str | Path) -> str:
-    """Which of ``KINDS`` a file is, or nothing where that cannot be told."""
+    """Which of ``KINDS`` a file is, or a scan's folder, or nothing where that cannot be told."""
     head = b""
     with suppress(OSError, ValueError):
         if is_file(path) and Path(path).stat().st_size:  # a pipe cannot be read twice
             with Path(path).open("rb") as file:
                 head = file.read(_HEAD)
-    if head.startswith(b"\x89HDF"):
+    if head.startswith(b"\x89HDF") or is_file(Path(path, "volume.h5")):
         return "volume"
     if is_bikecad(head):
         return "bikecad"
     if head.startswith(_PICTURES) or b"<svg" in head[:1000]:
         return "picture"
+    if b'"bikestab certificate ' in head[:200]:
+        return "certificate"
     text = head.decode("utf-8", errors="ignore")
     keys = set(_KEY.findall(text))
     if "bicycle" in keys and keys & {"grid", "expect"}:

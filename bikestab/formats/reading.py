@@ -17,6 +17,7 @@ from bikestab.rider import flattened
 from bikestab.texts import read_text
 
 WORDS = ("parameterization", "parameters", "rider", "description")  # beside ``values`` in a parameter set
+_EXAMPLE = "'mB = 85'; see 'bikestab bicycles meijaard2007'"
 _OF_RIDER = {"mB": "rider.m", "xB": "rider.x", "zB": "rider.z"}
 _OF_RIDER |= {f"IB{axes}": f"rider.I{axes}" for axes in ("xx", "yy", "zz", "xz")}
 Located: TypeAlias = Callable[[InputError], InputError]
@@ -74,10 +75,10 @@ def _from_equalities(text: str, file: str) -> Found:
 def _from_yaml(text: str, file: str) -> Found:
     data: Any = yamltext.plain(text)
     if data is None:
-        document = yamltext.parse(text, file)
+        document = yamltext.parse(text, file, _EXAMPLE)
         data, located = document.data, document.located
     else:
-        located = lambda error: yamltext.parse(text, file).located(error)  # noqa: E731  # parsed for its lines alone
+        located = lambda error: yamltext.parse(text, file, _EXAMPLE).located(error)  # noqa: E731  # parsed for its lines alone
     if isinstance(data.get("values"), dict):
         return _from_parameter_set(data, located)
     return _of_mapping(data, located)

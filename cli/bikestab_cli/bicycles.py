@@ -38,7 +38,6 @@ def command(name: str | None, output: str | None, given: Given, as_json: bool) -
     from bikestab.bicycle import Bicycle
     from bikestab.errors import InputError
     from bikestab.presets import preset_names, preset_text
-    from bikestab.texts import is_there
 
     if output:
         _draw(name, output, given)
@@ -46,7 +45,8 @@ def command(name: str | None, output: str | None, given: Given, as_json: bool) -
     if given:
         option = f"--{next(iter(given)).replace('_', '-')}"
         raise click.UsageError(f"{option} is for a picture: give -o FILE", click.get_current_context())
-    if name and name not in preset_names() and is_there(name):
+    if name and name not in preset_names():
+        Bicycle.load(name)  # what is no bicycle is told as that
         hint = "-o draws it, and 'bikestab convert' prints it"
         raise InputError("is a file, not a bicycle that comes with bikestab", place=name, hint=hint)
     chosen = [Bicycle.preset(n) for n in ([name] if name else preset_names())]

@@ -221,6 +221,21 @@ def test_bicycles_mistake(bikestab):
     mistake(bikestab("bicycles", "dikarev"), "did you mean 'dikarev1981'?")
     bikestab("convert", "meijaard2007", "-o", "mine.yaml")
     mistake(bikestab("bicycles", "mine.yaml"), "mine.yaml: is a file, not a bicycle that comes with bikestab")
+    Path("a.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    mistake(bikestab("bicycles", "a.png"), "a.png: is a picture, not a bicycle's file")
+    mistake(bikestab("certify", "--verify", "a.png"), "a.png: is a picture, not a certificate")
+    Path("notes.txt").write_text("some words\n")
+    Path("empty").touch()
+    for name in ("notes.txt", "empty"):
+        for args in (("bicycles", name), ("vrange", "--bicycle", name)):
+            mistake(bikestab(*args), "lines such as 'mB = 85'; see 'bikestab bicycles meijaard2007'")
+
+
+@pytest.mark.parametrize("command", ["scan", "check"])
+def test_a_bicycle_in_place_of_a_config(bikestab, command):
+    told = bikestab(command, "meijaard2007")
+    mistake(told, "meijaard2007: is a bicycle, not a scan's config")
+    mistake(told, "'bikestab init --bicycle meijaard2007' writes a config of it")
 
 
 # --- init and schema
@@ -280,7 +295,6 @@ def test_init_keeps_what_is_there(bikestab):
 @pytest.mark.parametrize(
     ("args", "expected"),
     [
-        (["none/a.yaml"], "none/a.yaml: cannot be written (No such file or directory)"),
         ([".", "--force"], ".: cannot be written (Is a directory)"),
         (["--bicycle", "dikarev"], "did you mean 'dikarev1981'?"),
     ],

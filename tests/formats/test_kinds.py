@@ -19,6 +19,7 @@ TEXTS = {
     "bicycle": preset_text("meijaard2007"),
     "rider": RIDER,
     "bikecad": '<?xml version="1.0"?>\n<!DOCTYPE properties SYSTEM "x">\n<properties>\n</properties>\n',
+    "certificate": '{"format": "bikestab certificate 2", "bicycle": 1}',
     "yeadon": "# a rider\nsomersault: 2.2\ntwist: 0\n",
 }
 READERS = {
@@ -45,6 +46,9 @@ def test_recognised(files, tmp_path):
     assert kind_of(tmp_path) == kind_of(tmp_path / "none") == kind_of("\0") == ""
     (tmp_path / "words").write_text("just words")
     assert kind_of(tmp_path / "words") == ""
+    (tmp_path / "scan").mkdir()
+    (tmp_path / "scan/volume.h5").touch()
+    assert kind_of(tmp_path / "scan") == "volume"
     assert kind_of(Path("configs/quick.yaml")) == "config"
     one = tmp_path / "b.json"
     one.write_text('{"w": 1, "mB": 2}')
