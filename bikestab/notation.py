@@ -148,6 +148,7 @@ def _body_remarks(n: Mapping[str, float]) -> list[str]:
             remarks.append(
                 f"no rigid {label} has {inertia}yy = {yy:g} with {inertia}xx = {xx:g}, "
                 f"{inertia}zz = {zz:g}, {inertia}xz = {xz:g} kg m²: "
-                f"allowed {spread:.6g} ... {xx + zz:.6g}"
+                f"allowed {spread:.6g} ... {xx + zz:.6g}; "
+                f"{inertia}yy itself does not matter here, the others do"
             )
     return remarks
