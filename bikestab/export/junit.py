@@ -16,11 +16,15 @@ _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
 class Case(NamedTuple):
-    """One check: its name, what is wrong (nothing where it passed), and what was expected and found."""
+    """One check: its name, what is wrong (nothing where it passed), and what was expected and found.
+
+    ``unusable`` says that there was nothing to check.
+    """
 
     name: str
     problem: str
     text: str
+    unusable: bool = False
 
 
 class Suite(NamedTuple):
@@ -45,8 +49,9 @@ def save_junit(suites: Sequence[Suite], path: str | Path) -> None:
                 element, "testcase", name=_text(case.name), classname=_text(suite.name), time="0.000"
             )
             if case.problem:
-                failure = ElementTree.SubElement(shown, "failure", type="check", message=_text(case.problem))
-                failure.text = _text(case.text)
+                kind, of = ("error", "input") if case.unusable else ("failure", "check")
+                problem = ElementTree.SubElement(shown, kind, type=of, message=_text(case.problem))
+                problem.text = _text(case.text)
             else:
                 ElementTree.SubElement(shown, "system-out").text = _text(case.text)
     ElementTree.indent(root)
@@ -56,8 +61,10 @@ def save_junit(suites: Sequence[Suite], path: str | Path) -> None:
 
 def _counts(suites: Sequence[Suite]) -> dict[str, str]:
     cases = [case for suite in suites for case in suite.cases]
-    failures = sum(bool(case.problem) for case in cases)
-    return {"tests": str(len(cases)), "failures": str(failures), "errors": "0", "time": "0.000"}
+    errors = sum(case.unusable for case in cases)
+    failures = sum(bool(case.problem) for case in cases) - errors
+    counts = {"tests": len(cases), "failures": failures, "errors": errors}
+    return {**{name: str(number) for name, number in counts.items()}, "time": "0.000"}
 
 
 def _text(text: str) -> str:

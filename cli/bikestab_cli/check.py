@@ -48,6 +48,9 @@ def command(configs: tuple[str, ...], junit: str | None, as_json: bool) -> None:
       bikestab check configs/quick.yaml --json
     """
     check_files(junit)
+    for name in configs:
+        if configs.count(name) > 1:
+            raise click.UsageError(f"{name} is given twice", click.get_current_context())
     checked = [_checked(name) for name in configs]
     if junit:
         from bikestab.export.junit import save_junit
@@ -143,7 +146,7 @@ def _suite(checked: Checked) -> Suite:
     from bikestab.export.junit import Case, Suite
 
     if checked.error:
-        return Suite(checked.name, [Case("config", "cannot be used", str(checked.error))])
+        return Suite(checked.name, [Case("config", "cannot be used", str(checked.error), True)])
     cases = []
     for number, outcome in enumerate(checked.outcomes):
         _, lam, sigma, wanted, found, _ = (cell.replace("\n", " ") for cell in _row("", outcome))

@@ -16,7 +16,7 @@ from bikestab_cli.options import (
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
-from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
+from bikestab_cli.several import Chosen, Values, check_varied, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
     from bikestab_cli.eigen_words import Followed
@@ -106,6 +106,12 @@ def command(
         raise click.BadParameter("it is a picture of its own: give -o FILE", param_hint="--locus")
     check_files(csv_file, output)
     machines = machines_chosen(bicycle_name, delta, changes, given)
+    for machine in machines:
+        check_varied(machine.bicycle, view.over, changes, delta)
+    if output and len(machines) > 1 and (view.kind or locus):
+        raise click.BadParameter(
+            "this picture is of one machine", param_hint="--locus" if locus else "--output"
+        )
     files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if view.kind:
         text, results = _viewed(machines, given, view, model, csv_file, output)
@@ -182,8 +188,6 @@ def _draw(found: list[Followed], start: float, stop: float, model: Model, locus:
     if locus:
         from bikestab.plot.locus import draw_locus
 
-        if len(found) > 1:
-            raise click.BadParameter("this picture is of one machine", param_hint="--locus")
         figure = draw_locus(*designs[0], start, stop, model=model)
     elif len(found) == 1:
         from bikestab.plot.modes import draw_modes

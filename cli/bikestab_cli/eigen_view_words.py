@@ -68,7 +68,7 @@ def told_against(machine: Chosen, found: Against, V: float, unit: str, model: Mo
         words += f"; every {every.step}th of {len(found.values)} values, which --json and --csv have all"
     changed = f" ({machine.changes})" if machine.set else ""
     table_ = eigenvalue_table(f"{found.name}\n[{unit}]", rows)
-    return prose(f"{heading(machine.bicycle, model)}{changed}\n{words}\n\n{table_}")
+    return prose(f"{heading(machine.bicycle, model, [found.name])}{changed}\n{words}\n\n{table_}")
 
 
 def _whole(machine: Chosen, design: Any, model: Model, parts: list[str]) -> str:

@@ -57,6 +57,8 @@ def _pushed(_: click.Context, option: click.Parameter, text: str | None) -> dict
         if not equals or name not in units:
             problem = f"{part!r} is not STATE=VALUE, with one of {', '.join(units)}"
             raise click.BadParameter(problem, param=option)
+        if name in values:
+            raise click.BadParameter(f"{name} is given twice", param=option)
         try:
             values[name] = quantity(number, units[name])
         except InputError as error:
@@ -73,6 +75,7 @@ def view_options(function: Callable[..., Any]) -> Callable[..., Any]:
         if sum(map(bool, (view.shapes, view.push, view.over))) > 1 or len(view.over) > 1:
             problem = "give one of --shapes, --push and --over, and this once"
             raise click.UsageError(problem, click.get_current_context())
+        _check_used(view)
         if not view.until > 0:
             raise click.BadParameter("allowed: above 0", param_hint="--until")
         return function(view=view, **arguments)
@@ -96,6 +99,18 @@ def view_options(function: Callable[..., Any]) -> Callable[..., Any]:
     for option in reversed(options):
         command = option(command)
     return command
+
+
+def _check_used(view: View) -> None:
+    """Refuse options that are typed and say nothing of what is asked for."""
+    context = click.get_current_context()
+    for name, option, used, what in (
+        ("at", "--at", view.kind, "--shapes, --push and --over; the table's speeds are --V"),
+        ("until", "--until", view.kind == "push", "--push"),
+        ("speeds", "--V", not view.kind, "the table along the speed; give --at"),
+    ):
+        if not used and context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT:
+            raise click.UsageError(f"{option} is for {what}", context)
 
 
 def shown(machine: Chosen, given: Given, view: View, model: Model) -> Shown:
@@ -197,7 +212,7 @@ def _speed(bicycle: Any, lam: float, sigma: float, view: View, model: Model) -> 
     found = stable_intervals(bicycle, lam, sigma, model=model)
     bounded = [(b - a, a, b) for a, b in zip(found.V1, found.V2, strict=True) if b - a < float("inf")]
     if not bounded:
-        problem = "there is no stable interval with two ends to take the middle of: give --at"
+        problem = f"{bicycle.name} has no stable interval with two ends to take the middle of: give --at"
         raise click.UsageError(problem, click.get_current_context())
     _, a, b = max(bounded)
     return float((a + b) / 2)
@@ -220,6 +235,4 @@ def save_picture(found: list[Shown], output: str) -> None:
     """Draw the one machine there is."""
     from bikestab.plot.files import save
 
-    if len(found) > 1:
-        raise click.BadParameter("this picture is of one machine", param_hint="--output")
     save(found[0].draw(), Path(output))

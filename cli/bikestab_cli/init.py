@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
-from bikestab_cli.options import DEFAULT_BICYCLE, NAME, check_files
+from bikestab_cli.options import DEFAULT_BICYCLE, FILE, NAME
 
 
 @click.command("init")
-@click.argument("path", type=NAME, default="bikestab.yaml")
+@click.argument("path", type=FILE, default="bikestab.yaml")
 @click.option(
     "--bicycle",
     "name",
@@ -36,14 +36,14 @@ def command(path: str, name: str, uncertain: bool, force: bool) -> None:
     """
     from bikestab.config.template import starting_config
     from bikestab.errors import InputError
-    from bikestab.files import to_stdout, unwritable, written
+    from bikestab.files import check_writable, to_stdout, unwritable, written
 
     text = starting_config(name, path, uncertain=uncertain)
     try:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
         raise unwritable(path, error) from None
-    check_files(path)
+    check_writable(path)
     if Path(path).is_file() and not force:
         raise InputError("exists already", place=path, hint="--force replaces it")
     with written(path) as part:

@@ -21,7 +21,6 @@ from bikestab_cli.parameters import (
 from bikestab_cli.riders import rider_option, with_its_rider
 
 from bikestab.errors import InputError
-from bikestab.files import check_writable
 from bikestab.units import ANGLE, DAMPING, LENGTH, PURE, SPEED, Units, quantity
 
 if TYPE_CHECKING:
@@ -211,12 +210,14 @@ def tell_once(line: str) -> None:
 
 
 def check_files(*names: str | None) -> None:
-    """Refuse files that have no folder, and one asked for twice, before anything is computed."""
+    """Refuse files that have no folder, are read, or are asked for twice, before anything is computed."""
+    from bikestab_cli.kept import check_kept
+
     places = [Path(name).absolute() for name in names if name]
     for name, place in zip(filter(None, names), places, strict=True):
         if places.count(place) > 1:
             raise click.UsageError(f"{name} is asked for twice", click.get_current_context())
-        check_writable(name)
+        check_kept(name)
 
 
 @contextmanager

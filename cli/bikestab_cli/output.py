@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
@@ -118,13 +118,14 @@ def design_columns(design: Design) -> list[str]:
     ]
 
 
-def heading(bicycle: Bicycle, model: str) -> str:
-    """What every table is of."""
+def heading(bicycle: Bicycle, model: str, varied: Collection[str] = ()) -> str:
+    """What every table is of; the damping only where it is not ``varied``."""
     context = click.get_current_context(silent=True)
     default = context and context.get_parameter_source("bicycle_name") == click.core.ParameterSource.DEFAULT
     whose = " (no --bicycle: the paper's)" if default else ""
-    gains = "".join(f", {name} = {gain:g}" for name, gain in bicycle.gains)
-    return f"{bicycle.name}, {model} model, damping {bicycle.delta:g} kg m²/s{gains}{whose}"
+    gains = "".join(f", {name} = {gain:g}" for name, gain in bicycle.gains if name not in varied)
+    damping = "" if "delta" in varied else f", damping {bicycle.delta:g} kg m²/s"
+    return f"{bicycle.name}, {model} model{damping}{gains}{whose}"
 
 
 def count(number: int, what: str) -> str:

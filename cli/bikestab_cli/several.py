@@ -103,6 +103,23 @@ def machines_chosen(
     return machines
 
 
+def check_varied(
+    bicycle: Bicycle, over: Collection[str], changes: Collection[str], delta: float | None
+) -> None:
+    """Refuse to vary what --set or --delta fixes."""
+    from bikestab.variants import fixed_by, front_of
+
+    fixed = fixed_by(bicycle, over)
+    for name, option in [
+        *((name, "--set") for name in changes),
+        *([] if delta is None else [("delta", "--delta")]),
+    ]:
+        if name in over or ((front := front_of(bicycle, name)) and fixed.get(front)):
+            raise click.BadParameter(
+                f"{option} fixes {name}, which varies; give one of them", param_hint="--over"
+            )
+
+
 def _check_once(bicycle: Bicycle, changes: Collection[str], given: Collection[str]) -> None:
     """Refuse what --set and an option both say: the tilt, the trail, the offset, the damping."""
     from bikestab.variants import fixed_by, front_of

@@ -20,7 +20,7 @@ from bikestab_cli.options import (
 )
 from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.parameters import MOST_VALUES
-from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
+from bikestab_cli.several import Chosen, Values, check_varied, machines_chosen, record_of, several_machines
 from bikestab_cli.vrange_words import Found, told_all, told_one, told_over
 
 from bikestab.errors import InputError
@@ -95,6 +95,8 @@ def command(
     check_files(output)
     machines = machines_chosen(bicycle_name, delta, changes, given)
     if over:
+        for machine in machines:
+            check_varied(machine.bicycle, over, changes, delta)
         _over(machines, over, model, as_json, given or any(deviations) or output)
         return
     axis = _axis_drawn(given) if output else ""

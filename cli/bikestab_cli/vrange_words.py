@@ -76,7 +76,7 @@ def told_over(machine: Chosen, points: Sequence[tuple[dict[str, float], Answer]]
             open_.append(f"marginal at {where}: {answer['reason']}")
     head = [f"{p.name}\n[{p.unit}]" if p.unit != "1" else p.name for p in named]
     changed = f" ({machine.changes})" if machine.set else ""
-    text = [heading(machine.bicycle, model) + changed + "\n", table([*head, *_HEAD], rows)]
+    text = [heading(machine.bicycle, model, points[0][0]) + changed + "\n", table([*head, *_HEAD], rows)]
     return "\n".join([*text, *map(prose, open_)])
 
 

@@ -80,8 +80,9 @@ ALLOWED = {
     "testsuite": (
         {"name", "tests", "failures", "errors", "time", "skipped", "timestamp"}, {"testcase"}
     ),
-    "testcase": ({"name", "classname", "time"}, {"failure", "system-out"}),
+    "testcase": ({"name", "classname", "time"}, {"failure", "error", "system-out"}),
     "failure": ({"type", "message"}, set()),
+    "error": ({"type", "message"}, set()),
     "system-out": (set(), set()),
 }  # fmt: skip
 
@@ -93,11 +94,14 @@ def test_junit(bikestab):
     code, out, _ = bikestab("check", *files, "--junit", "results.xml")
     assert (code, out.splitlines()[-1]) == (2, "results.xml")
     read = junitparser.JUnitXml.fromfile("results.xml")
-    assert (read.tests, read.failures, read.errors) == (4, 2, 0)
+    assert (read.tests, read.failures, read.errors) == (4, 1, 1)
     suites = list(read)
     assert [suite.name for suite in suites] == [*files[:2], "none\N{REPLACEMENT CHARACTER}.yaml"]
     assert [[case.is_passed for case in suite] for suite in suites] == [[True, True], [False], [False]]
     (failure,) = next(iter(suites[1])).result
+    assert isinstance(failure, junitparser.Failure)
+    (error,) = next(iter(suites[2])).result
+    assert isinstance(error, junitparser.Error)
     assert failure.text == "expected [m/s]: 5 any within 0.001\nfound [m/s]: 4.292382536341 6.024262015388"
 
     def look(element):
@@ -151,3 +155,10 @@ def test_the_jobs_of_the_page_run(bikestab, monkeypatch):
             code, out, _ = bikestab(*args)
             assert (code, bool(out)) == (0, True), line
         assert junitparser.JUnitXml.fromfile("results.xml").failures == 0
+
+
+def test_a_config_given_twice_is_refused(bikestab):
+    write("good.yaml", "V1: 4.29, within: 1%")
+    code, out, err = bikestab("check", "good.yaml", "good.yaml")
+    assert (code, out) == (2, "")
+    assert "good.yaml is given twice" in err

@@ -120,7 +120,7 @@ def test_locus(bikestab):
         (["--over", "delta=-1:5:6", "--at", "5"], "-1 is not non-negative"),
         (["--locus"], "--locus: it is a picture of its own: give -o FILE"),
         (["--shapes", "--at", "-1"], "--at: -1"),
-        (["--shapes", "--bicycle", "kooijman2011", "-o", "a.png"], "give --at"),
+        (["--shapes", "--bicycle", "kooijman2011"], "give --at"),
         (["--shapes", "--bicycle", "sharp1971", "-o", "a.png"], "this picture is of one machine"),
     ],
 )
@@ -129,3 +129,35 @@ def test_mistakes(bikestab, args, words):
     assert (code, out) == (2, "")
     assert words in " ".join(err.split())
     assert not list(Path().iterdir())
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (["--at", "5"], "--at is for --shapes, --push and --over"),
+        (["--until", "3"], "--until is for --push"),
+        (["--over", "delta=0:5:3", "--at", "4", "--V", "3"], "--V is for the table along the speed"),
+        (["--shapes", "--at", "5", "--until", "3"], "--until is for --push"),
+        (["--push", "roll_rate=0.5,roll_rate=1", "--at", "5"], "roll_rate is given twice"),
+        (["--over", "delta=0:5:3", "--at", "4", "--delta", "2"], "--delta fixes delta, which varies"),
+        (["--over", "mB=60:90:3", "--at", "4", "--set", "mB=70"], "--set fixes mB, which varies"),
+        (["--bicycle", "kooijman2011", "--shapes"], "kooijman2011 has no stable interval with two ends"),
+        (
+            ["--bicycle", "sharp1971", "--over", "delta=0:5:3", "--at", "4", "-o", "d.png", "--csv", "d.csv"],
+            "this picture is of one machine",
+        ),
+    ],
+)
+def test_options_that_say_nothing_are_refused(bikestab, args, words):
+    code, out, err = bikestab("eigen", "--bicycle", "meijaard2007", *args)
+    assert (code, out) == (2, "")
+    assert words in err
+    assert not Path("d.csv").exists()
+
+
+def test_the_heading_is_silent_of_a_damping_that_varies(bikestab):
+    args = ("--bicycle", "meijaard2007", "--over", "delta=0:5:3")
+    for done in (bikestab("eigen", *args, "--at", "4"), bikestab("vrange", *args)):
+        assert done[0] == 0
+        assert "damping" not in done[1].splitlines()[0]
+    assert "damping 0 kg" in bikestab("vrange", "--bicycle", "meijaard2007", "--over", "mB=60:90:2")[1]

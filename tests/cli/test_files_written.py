@@ -108,3 +108,46 @@ def test_a_volume_behind_a_link(bikestab, tmp_path):
         assert Path("out/volume.h5").is_symlink()
         assert [path.name for path in Path("disk").iterdir()] == ["big.h5"]
         assert f"{title}\n" in bikestab("info", "out")[1]
+
+
+def _mine(name):
+    from bikestab.presets import preset_text
+
+    Path(name).write_text(preset_text("meijaard2007"), "utf-8")
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (("eigen", "--bicycle", "mine.yaml", "--csv", "mine.yaml"), "is read by this command"),
+        (("eigen", "--bicycle", "mine.yaml", "--csv", "link.yaml"), "is read by this command"),
+        (("eigen", "--csv", "mine.yaml"), "is a bicycle's file"),
+        (("certify", "a.yaml", "-o", "./a.yaml"), "is read by this command"),
+        (("check", "a.yaml", "--junit", "a.yaml"), "is read by this command"),
+        (("check", "--junit", "a.yaml", "b.yaml"), "is a scan's config"),
+        (("check", "b.yaml", "--junit", "other.yaml"), "is YAML"),
+        (("report", "out", "-o", "out/volume.h5"), "is read by this command"),
+        (("report", "out", "-o", "copy.page"), "is a volume"),
+    ],
+)
+def test_nothing_that_is_read_is_replaced(bikestab, args, words):
+    _mine("mine.yaml")
+    Path("link.yaml").symlink_to("mine.yaml")
+    for name in ("a.yaml", "b.yaml"):
+        Path(name).write_text("bicycle: mine.yaml\nexpect: [{V1: 4.29, within: 1%}]\n", "utf-8")
+    Path("other.yaml").write_text("something: else\n", "utf-8")
+    Path("out").mkdir()
+    for name in ("out/volume.h5", "copy.page"):
+        Path(name).write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(64))
+    before = {path: path.read_bytes() for path in Path().rglob("*.*") if path.is_file()}
+    code, out, err = bikestab(*args)
+    assert (code, out) == (2, "")
+    assert words in err
+    assert {path: path.read_bytes() for path in Path().rglob("*.*") if path.is_file()} == before
+
+
+def test_an_output_is_replaced_by_the_next(bikestab):
+    Path("a.yaml").write_text("bicycle: meijaard2007\nexpect: [{V1: 4.29, within: 1%}]\n", "utf-8")
+    for _ in range(2):
+        assert bikestab("check", "a.yaml", "--junit", "results.yaml")[0] == 0
+        assert bikestab("eigen", "--bicycle", "meijaard2007", "--csv", "a.csv")[0] == 0

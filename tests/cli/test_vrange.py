@@ -491,3 +491,17 @@ def test_a_tilt_may_be_set_beside_a_trail(bikestab):
     tilts = (["--set", "lam=19deg"], ["--lam", "19deg"])
     one, other = (json.loads(bikestab(*words, *tilt)[1])["results"][0] for tilt in tilts)
     assert one["intervals"] == other["intervals"]
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (("delta=0:2:2", "--delta", "5"), "--delta fixes delta, which varies"),
+        (("mB=60:110:2", "--set", "mB=1,2"), "--set fixes mB, which varies"),
+        (("sigma=0.05:0.1:2", "--set", "c=0.1"), "--set fixes c, which varies"),
+    ],
+)
+def test_what_varies_is_not_fixed_too(bikestab, args, words):
+    code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", "--over", *args)
+    assert (code, out) == (2, "")
+    assert words in err
