@@ -165,7 +165,14 @@ def _differences(volume: Volume, plan: Plan) -> Iterator[str]:
     pairs: dict[str, tuple[Any, Any]] = {"model": (volume.model, config.model)}
     pairs["axes"] = (" × ".join(volume.axes), " × ".join(config.grid.names))
     there, here = json.loads(volume.text("bicycle_parameters")), config.family(None).kept
-    pairs |= {name: (there.get(name), value) for name, value in here.items()}
+    machine = config.machine
+    parts: list[str] = []  # a volume that keeps two parts does not say of which bodies they were
+    if machine.bodies is not None and not here.keys() >= machine.bodies.keys():
+        parts = [name for name in here if name not in ("g", "delta") and there.get(name) != here[name]]
+    if parts:
+        old, new = _short(there.get(parts[0])), _short(here[parts[0]])
+        yield f"the bicycle {machine.name} differs: of its two parts {parts[0]} is {old} there, {new} here"
+    pairs |= {name: (there.get(name), value) for name, value in here.items() if name not in parts}
     slopes = any(name in volume.file for name in gradient_names(config.grid.names))
     asked = [*plan.fields, *([GRADIENTS] if GRADIENTS in config.fields else [])]
     pairs["fields"] = (" ".join([*volume.fields, *([GRADIENTS] if slopes else [])]), " ".join(asked))
@@ -206,6 +213,10 @@ def _ensemble(volume: Volume) -> str | None:
 
 def _shown(value: object) -> str:
     return "none" if value is None else f"{value:.17g}" if isinstance(value, float) else str(value)
+
+
+def _short(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else _shown(value)
 
 
 def _range(values: Floats) -> str:

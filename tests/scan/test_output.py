@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import bikestab
+from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
 from bikestab.scan import run
 from bikestab.scan.output import tiles_path
@@ -103,6 +104,19 @@ def test_what_differs_of_a_sweep_and_an_ensemble_is_told(more, other, words):
     with pytest.raises(InputError) as caught:
         run_scan(small(more=other))
     assert words in str(caught.value)
+
+
+def test_a_changed_bicycle_of_bodies_is_told_of_once():
+    given = Bicycle.preset("meijaard2007").given
+    for mass in (85, 92):
+        lines = [f"{name}: {value!r}\n" for name, value in {**given, "mB": mass}.items()]
+        Path("mine.yaml").write_text("".join(lines))
+        changed = small().model_copy(update={"bicycle": Bicycle.load("mine.yaml")})
+        if mass == 85:
+            run_scan(changed)
+    with pytest.raises(InputError) as caught:
+        run_scan(changed)
+    assert "(the bicycle mine differs: of its two parts m1 is 87 there, 94 here)" in str(caught.value)
 
 
 def test_another_grid_is_told():
