@@ -2,9 +2,29 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
 _FILES = {"bash": "~/.bashrc", "zsh": "~/.zshrc", "fish": "~/.config/fish/completions/bikestab.fish"}
+
+
+def completed(incomplete: str, *, bicycles: bool) -> list[CompletionItem]:
+    """Files; where a bicycle's name fits, both as words: bash shows none of them beside "file"."""
+    from glob import escape, glob
+
+    from click.shell_completion import CompletionItem
+
+    from bikestab.presets import preset_names
+
+    fitting = [name for name in preset_names() if name.startswith(incomplete)] if bicycles else []
+    if not fitting:
+        return [CompletionItem(incomplete, type="file")]
+    there = sorted(glob(f"{escape(incomplete)}*"))  # noqa: PTH207  # as it is typed
+    return [CompletionItem(name) for name in (*fitting, *there)]
 
 
 @click.command("completion")

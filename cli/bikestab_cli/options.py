@@ -100,13 +100,9 @@ class Name(click.ParamType):
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[Any]:
         """Files; where a bicycle is wanted those that come with bikestab too."""
-        from click.shell_completion import CompletionItem
+        from bikestab_cli.completion import completed
 
-        from bikestab.presets import preset_names
-
-        wanted = preset_names() if param.name == "bicycle_name" else []
-        fitting = [CompletionItem(name) for name in wanted if name.startswith(incomplete)]
-        return [*fitting, CompletionItem(incomplete, type="file")]
+        return completed(incomplete, bicycles=param.name == "bicycle_name")
 
 
 NAME, FILE = Name(), Name(of_file=True)

@@ -8,8 +8,14 @@ from bikestab_cli.output import print_json
 from bikestab.errors import nearest
 
 
+def _complete(_: click.Context, __: click.Parameter, incomplete: str) -> list[str]:
+    from bikestab_cli.schemas import SCHEMAS
+
+    return [name for name in SCHEMAS if name.startswith(incomplete)]
+
+
 @click.command("schema")
-@click.argument("name", required=False, metavar="[COMMAND]")
+@click.argument("name", required=False, metavar="[COMMAND]", shell_complete=_complete)
 def command(name: str | None) -> None:
     """Print the JSON Schema of a config, for editors, or of what COMMAND prints with --json.
 

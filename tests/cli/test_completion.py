@@ -24,13 +24,22 @@ def completed(words, shell="bash"):
 
 def test_commands_options_and_bicycles():
     assert completed("bikestab vra") == ["plain,vrange"]
-    assert completed("bikestab vrange --bicycle mei") == ["plain,meijaard2007", "file,mei"]
+    assert completed("bikestab vrange --bicycle mei") == ["plain,meijaard2007"]
+    assert completed("bikestab vrange --bicycle nothing") == ["file,nothing"]
+    assert "plain,vrange" in completed("bikestab schema v")
     assert completed("bikestab scan con") == ["file,con"]
     assert "plain,--lam" in completed("bikestab eigen --la")
     assert [word.split("\t")[0] for word in completed("bikestab comp", "fish")] == [
         "plain,compare",
         "plain,completion",
     ]
+
+
+def test_bicycles_and_files_together(tmp_path, monkeypatch):
+    """Both are words: bash's script of click forgets every word where it meets a file."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mein[1].yaml").touch()
+    assert completed("bikestab vrange --bicycle me") == ["plain,meijaard2007", "plain,mein[1].yaml"]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
