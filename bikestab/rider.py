@@ -74,6 +74,6 @@ def left_behind(given: Mapping[str, float], changed: Mapping[str, Any]) -> str:
     if "rider.m" not in changed or "rider.inertia_mass" in given or INERTIAS & changed.keys():
         return ""
     return (
-        f"the rider's mass is another than the file's {given['rider.m']:g} kg, the rider's inertia is not; "
-        "with scale_inertia: true under rider it changes in proportion"
+        f"the rider's mass alone changes from the file's {given['rider.m']:g} kg, the rider's inertia stays; "
+        "with scale_inertia: true under rider it changes with the mass"
     )

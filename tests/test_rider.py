@@ -69,7 +69,7 @@ def test_another_rider():
     same(light, with_rider(m=60))
     (note,) = light.notes
     assert note.startswith(
-        "the rider's mass is another than the file's 83.5 kg, the rider's inertia is not; "
+        "the rider's mass alone changes from the file's 83.5 kg, the rider's inertia stays; "
     )
     assert light.replaced({"rider.m": 50}).notes[0] == note
     assert bicycle.replaced({"rider.m": 60, "rider.Ixx": 7}).notes == ()

@@ -77,7 +77,7 @@ def command(
       bikestab sensitivity --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
     """
     from bikestab_cli.sensitivity_words import side_by_side, told
-    from bikestab_cli.spread_words import told_spread
+    from bikestab_cli.spread_words import tell_rider, told_spread
 
     from bikestab.design.effects import sensitivity_record
     from bikestab.design.sensitivity import sensitivity, two_parts
@@ -98,6 +98,7 @@ def command(
         ]
     for bicycle in bicycles:
         tell_which(bicycle, deviations[1])
+        tell_rider(bicycle, {**bicycle.deviations, **deviations[1]})
         for text in deviation_doubts(bicycle, deviations[1]):
             tell_once(f"warning: {bicycle.name}: {text}")
     with told_as_options():

@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from bikestab_cli.options import tell_once
+
+from bikestab.rider import left_behind
+
 if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
     from bikestab.design.spread import End, Spread
+
+
+def tell_rider(bicycle: Bicycle, deviations: Mapping[str, float]) -> None:
+    """Say where the rider's mass is uncertain, and the inertia is drawn as it is."""
+    uncertain = {name: sd for name, sd in deviations.items() if sd}
+    if note := left_behind(bicycle.given, uncertain):
+        tell_once(f"note: {bicycle.name}: {note}")
 
 
 def known_lines(result: Spread) -> list[str]:

@@ -188,11 +188,14 @@ def _spreads(
             text = "the file has standard deviations: --sd file tells what they leave of the digits"
             tell_once(f"note: {bicycle.name}: {text}")
         return []
+    from bikestab_cli.spread_words import tell_rider
+
     from bikestab.design.sensitivity import sensitivity
     from bikestab.design.spread import own_spread
     from bikestab.plausible import deviation_doubts
 
     tell_which(bicycle, given)
+    tell_rider(bicycle, {**(bicycle.deviations if of_file else {}), **given})
     for text in deviation_doubts(bicycle, given):
         tell_once(f"warning: {text}")
     if len(answers) > MOST_SPREADS:

@@ -10,6 +10,7 @@ import pytest
 
 from bikestab.bicycle import Bicycle
 from bikestab.design.sensitivity import sensitivity
+from bikestab.presets import preset_text
 
 TWO = "--lam", "0.04834835", "--sigma", "0.15"  # of the paper's bicycle: two stable intervals
 
@@ -97,6 +98,17 @@ def test_deviations_give_the_speeds_their_own(told, without_warnings):
     one, other = (record["results"][0]["spread"] for record in records)
     assert one == other
     assert one["deviations"]["c"] == 0.01
+
+
+def test_an_uncertain_mass_of_the_rider_is_noted(bikestab):
+    rider = 'rider: {m: "75 +/- 5", x: 0.35, z: -1.1, Ixx: 8, Izz: 2.4, Ixz: -1.9}'
+    drawn, scaled = rider.replace("8,", '"8 +/- 1",'), rider.replace("}", ", scale_inertia: true}")
+    for text, noted in ((rider, True), (drawn, False), (scaled, False)):
+        Path("ridden.yaml").write_text(f"{preset_text('meijaard2007')}\n{text}\n", "utf-8")
+        for args in (("vrange", "--sd", "file"), ("sensitivity",)):
+            code, _, err = bikestab(*args, "--bicycle", "ridden.yaml")
+            assert code == 0
+            assert ("the rider's mass alone changes from the file's 75 kg" in err) == noted
 
 
 def test_the_tornado_picture(told):
