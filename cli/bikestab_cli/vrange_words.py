@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, heading, prose, table
+from bikestab_cli.output import DESIGN_HEAD, WIDTH, certain, design_columns, heading, prose, table
 
 if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _HEAD = [*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"]
 _FEWER = 9  # digits behind the point where machines stand beside them
+_FEWEST = 3  # where parameters have long names
 
 
 class Found(NamedTuple):
@@ -65,19 +66,32 @@ def told_over(machine: Chosen, points: Sequence[tuple[dict[str, float], Answer]]
     from bikestab.variants import parameter_of
 
     named = [parameter_of(machine.bicycle, name) for name in points[0][0]]
-    rows, open_ = [], []
+    open_ = []
     for point, answer in points:
-        values = [f"{value:.6g}" for value in point.values()]
-        for row in _rows([answer], _FEWER):
-            rows.append([*values, *row])
-            values = [""] * len(values)
         if answer["marginal"]:
             where = ", ".join(f"{name} = {value:.6g}" for name, value in point.items())
             open_.append(f"marginal at {where}: {answer['reason']}")
     head = [f"{p.name}\n[{p.unit}]" if p.unit != "1" else p.name for p in named]
     changed = f" ({machine.changes})" if machine.set else ""
-    text = [heading(machine.bicycle, model, points[0][0]) + changed + "\n", table([*head, *_HEAD], rows)]
+    for digits in range(_FEWER, _FEWEST - 1, -1):
+        told = table([*head, *_HEAD], _rows_over(points, digits))
+        if max(map(len, told.split("\n"))) <= WIDTH:
+            break
+    text = [heading(machine.bicycle, model, points[0][0]) + changed + "\n", told]
     return "\n".join([*text, *map(prose, open_)])
+
+
+def _rows_over(points: Sequence[tuple[dict[str, float], Answer]], digits: int) -> list[list[str]]:
+    rows = []
+    for point, answer in points:
+        values = [f"{value:.6g}" for value in point.values()]
+        for row in _rows([answer], digits):
+            narrow = (
+                row if digits == _FEWER else [cell.replace("stable speed", "stable\nspeed") for cell in row]
+            )
+            rows.append([*values, *narrow])
+            values = [""] * len(values)
+    return rows
 
 
 def _design(answer: Answer) -> str:

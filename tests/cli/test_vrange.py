@@ -505,3 +505,10 @@ def test_what_varies_is_not_fixed_too(bikestab, args, words):
     code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", "--over", *args)
     assert (code, out) == (2, "")
     assert words in err
+
+
+def test_a_table_over_gains_has_80_columns(bikestab):
+    args = ("--over", "k_phidot_V=-50:0:3", "--over", "k_deltadot_V=-1:0:2")
+    code, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", *args)
+    assert code == 0
+    assert max(map(len, out.splitlines())) <= 80
