@@ -174,8 +174,9 @@ def test_no_volume(bikestab, command, content, expected):
     mistake(bikestab(*command, "v.h5"), f"v.h5: {expected}")
 
 
-@pytest.mark.parametrize("command", [["info"], ["slice", "--lam", "0.2"]])
-def test_a_volume_with_a_flipped_byte(bikestab, volume, tmp_path, command):
+@pytest.fixture
+def flipped(volume, tmp_path):
+    """A volume with a bit of some of its chunks turned."""
     path = tmp_path / "v.h5"
     data = bytearray(volume.read_bytes())
     with h5py.File(volume) as file:
@@ -183,10 +184,24 @@ def test_a_volume_with_a_flipped_byte(bikestab, volume, tmp_path, command):
             chunk = file[name].id.get_chunk_info(0)
             data[chunk.byte_offset + chunk.size // 2] ^= 0x10
     path.write_bytes(data)
-    code, out, err = bikestab(*command, path)
+    return path
+
+
+@pytest.mark.parametrize("command", [["info"], ["export", "--intervals", "all.csv"]])
+def test_a_volume_with_a_flipped_byte(bikestab, flipped, command):
+    code, out, err = bikestab(*command, flipped)
     assert (code, out) in ((2, ""), (3, ""))
     assert err.startswith("error: ")
     assert "damaged" in err
+
+
+def test_a_plane_of_a_damaged_volume_is_computed_and_right(bikestab, volume, flipped):
+    """A slice takes the machine and the axes from the file, and its growth rates from the model."""
+    pictures = []
+    for path, name in ((volume, "whole.png"), (flipped, "damaged.png")):
+        assert bikestab("slice", path, "--lam", "0.2", "-o", name)[0] == 0
+        pictures.append(Path(name).read_bytes())
+    assert pictures[0] == pictures[1]
 
 
 # --- bicycles
