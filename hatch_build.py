@@ -14,7 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 
 SOURCES = sorted((Path(__file__).parent / "bikestab").glob("*.c"))
-NAME = "bikestab/kernels.so"
+NAME = "bikestab/kernels.bin"  # no .so, which would be a module
 # no fused multiply-adds: the same bits on every machine; the others let loops become vectors
 FLAGS = "-std=c11 -O3 -fno-math-errno -fno-trapping-math -ffp-contract=off -fPIC -shared"
 LINKED = "-lm"
@@ -50,7 +50,7 @@ class CustomBuildHook(BuildHookInterface):
             compiled(Path(self.root, NAME))
             return
         self._folder = tempfile.TemporaryDirectory()
-        library = Path(self._folder.name, "kernels.so")
+        library = Path(self._folder.name, "kernels.bin")
         if compiled(library):
             build_data["pure_python"] = False
             platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")

@@ -25,7 +25,7 @@ from bikestab.quartic import split
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
 
-LIBRARY = Path(__file__).with_name("kernels.so")
+LIBRARY = Path(__file__).with_name("kernels.bin")
 START = 32  # speeds; divides those of a tile of a scan
 _LANES = 16  # as in growth.c
 _MOST = 4  # as in intervals.c

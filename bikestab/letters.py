@@ -115,13 +115,13 @@ def _numbers(bicycle: Bicycle | Machines) -> SimpleNamespace:
         numbers = {name: x if isinstance(x, Twofold) else Twofold(x) for name, x in numbers.items()}
         numbers |= {name: Twofold(getattr(bicycle, name)) for name in getattr(bicycle, "parts", ())}
         ahead = numbers["l2"] - numbers["c"]
-    numbers |= {name: Twofold(value) for name, value in dict(bicycle.gains).items()}
+    numbers |= {name: Twofold(value) for name, value in dict(getattr(bicycle, "gains", ())).items()}
     return _with_radii(bicycle, numbers, ahead)
 
 
 def _doubles(bicycle: Bicycle | Machines) -> SimpleNamespace:
     """The same as doubles."""
-    numbers = {name: getattr(bicycle, name) for name in PARAMETERS} | dict(bicycle.gains)
+    numbers = {name: getattr(bicycle, name) for name in PARAMETERS} | dict(getattr(bicycle, "gains", ()))
     return _with_radii(bicycle, numbers, bicycle.l2 - bicycle.c)
 
 

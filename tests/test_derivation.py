@@ -46,7 +46,7 @@ def test_table_of_model_py(monkeypatch, model):
     """Its code, run with symbols for its letters: simplified as it is, the determinant of (1.5)."""
     bicycle = SimpleNamespace(**PARAMETERS, delta=delta)
     own = letters_module.letters_of(bicycle, derived.lam, derived.sigma, model)
-    n = SimpleNamespace(**{name: sp.Symbol(name) for name in vars(own) if name != "p"})
+    n = SimpleNamespace(**{name: sp.Symbol(name) for name in vars(own) if name != "p"}, p=SimpleNamespace())
     pitch = own.W - own.C2 * own.sin - own.S  # what the refinement adds to S
     n.missing = None if model == "refined" else n.h * sp.Symbol("pitch")
     more = 0 if model == "refined" else sp.Symbol("pitch")

@@ -1,4 +1,4 @@
-"""Values that stand together in a config → the same in one unit."""
+"""The ends of a range in a config → the same in one unit."""
 
 from __future__ import annotations
 
@@ -16,14 +16,15 @@ def mistake(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> Pydanti
 
 
 def one_unit(given: Any) -> Any:
-    """An axis as it is given, numbers without a unit in that of the others; what is no axis as it is."""
+    """An axis as it is given, an end without a unit in that of the other; what is no axis as it is.
+
+    In lists numbers without a unit are in SI units, whatever stands beside them.
+    """
     if not isinstance(given, dict):
         return given
     found = dict(given)
     if {"start", "stop"} <= found.keys():
         found["start"], found["stop"] = in_one_unit([found["start"], found["stop"]])
-    if isinstance(found.get("values"), list):
-        found["values"] = in_one_unit(found["values"])
     return found
 
 

@@ -20,8 +20,8 @@ from pydantic import (
     model_validator,
 )
 
-from bikestab.config.oneunit import in_one_unit, one_unit
 from bikestab.config.oneunit import mistake as mistake
+from bikestab.config.oneunit import one_unit
 from bikestab.errors import InputError
 from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.model import Floats
@@ -85,7 +85,7 @@ def in_si(value: Any, meaning: str, key: tuple[str | int, ...]) -> Any:
             for name, inner in one_unit(value).items()
         }
     if isinstance(value, (list, tuple)):
-        return [in_si(inner, meaning, (*key, i)) for i, inner in enumerate(in_one_unit(value, key))]
+        return [in_si(inner, meaning, (*key, i)) for i, inner in enumerate(value)]
     if not isinstance(value, str):
         return value
     try:

@@ -130,7 +130,7 @@ def command(
     \b
     Examples:
       bikestab design --bicycle meijaard2007 --V 5
-      bikestab design --lam 10deg:25deg --trail 0.05:0.12 --stable 16km/h:5
+      bikestab design --lam 10deg:25deg --trail 0.05:0.12 --stable 16km/h:18km/h
       bikestab design --sigma 0.08 --V 4:6 --json
       bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5
       bikestab design --bicycle meijaard2007 --set mB=60,110 --V 5 -o fronts.png

@@ -310,7 +310,7 @@ def test_init_keeps_what_is_there(bikestab):
 @pytest.mark.parametrize(
     ("args", "expected"),
     [
-        ([".", "--force"], ".: cannot be written (Is a directory)"),
+        ([".", "--force"], "'.' is a folder, not a file to write"),
         (["--bicycle", "dikarev"], "did you mean 'dikarev1981'?"),
     ],
 )

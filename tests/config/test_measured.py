@@ -44,8 +44,8 @@ def test_they_are_lam_and_sigma():
 
 
 def test_an_end_without_a_unit_takes_that_of_the_other():
-    bare = MEASURED.replace("start: 68deg", "start: 68").replace("[0mm, 51mm, 10.2cm]", "[0, 51, 102mm]")
-    config = load(bare + "ensemble: {mB: {normal: [85kg, 3000g]}, c: {uniform: [70, 90mm]}, samples: 2}\n")
+    bare = MEASURED.replace("start: 68deg", "start: 68").replace("[0mm, 51mm, 10.2cm]", "[0, 0.051, 102mm]")
+    config = load(bare + "ensemble: {mB: {normal: [85kg, 3000g]}, c: {uniform: [0.07, 90mm]}, samples: 2}\n")
     assert config.grid.values("lam") == pytest.approx(load(SAME).grid.values("lam"), rel=0, abs=1e-15)
     assert config.grid.values("sigma") == pytest.approx([0, 0.05, 0.1], rel=0, abs=1e-15)
     assert config.ensemble.parameters["c"].uniform == (0.07, 0.09)

@@ -298,8 +298,8 @@ WITH_UNITS = """\
 bicycle: meijaard2007
 delta: 1 N m s
 grid: {lam: {values: [0, 18deg]}, sigma: {values: [0, 0.1]}, V: {start: 0, stop: 20mph, num: 2}}
-sweep: {mB: {start: 60000 g, stop: 100kg, num: 3}, zB: [-90cm, -80]}
-ensemble: {IFyy: {normal: [2.8e5 kg mm², 1e4]}, samples: 2}
+sweep: {mB: {start: 60000 g, stop: 100kg, num: 3}, zB: [-90cm, -0.8]}
+ensemble: {IFyy: {normal: [2.8e5 kg mm², 0.01]}, samples: 2}
 """
 
 
