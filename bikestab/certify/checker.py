@@ -1,8 +1,7 @@
 """Check a certificate of stability, slowly and plainly: ``python checker.py FILE``.
 
-It shares nothing with the program that wrote it, nor its method. All numbers are fractions; the equations
-are those of Dikarev, Dikareva and Fufaev (1981), with sums over the bodies. A block is right if it can be cut
-into parts, on which values, slopes and products of slopes prove the signs of the conditions.
+It shares nothing with what wrote it: fractions, the equations of Dikarev, Dikareva and Fufaev (1981) summed
+over bodies, and blocks cut into parts on which values, slopes and their products prove the conditions' signs.
 """
 
 from __future__ import annotations
@@ -73,8 +72,11 @@ def conditions(n: dict[str, Near], box: list[Near], four: bool, refined: bool, d
     one, sin, cos, sigma, V = box
     v = V if damped else one  # else p1 and p3 are over V, and hurwitz3 over its square
     R1, R2 = (R if C.middle or C.reach else one for R, C in [(R1, C1), (R2, C2)])  # skates have none
-    R, C1, C2 = R1 * R2, C1 * R2, C2 * R1  # all is times R1 R2, so that C1/R1 and C2/R2 need no division
     mu, zero, bodies = sigma * cos, one * 0, rear + front  # mu: c1/c
+    least = [x.middle - x.reach for x in (delta, C1, C2, *(b[i] for b in bodies for i in (0, 3, 4)))]
+    if min(least) < 0 or not all(x.positive() for x in (c, g, R1, R2)):
+        raise Refuted("numbers of a block are no machine's: masses, lengths or inertias below or at zero")
+    R, C1, C2 = R1 * R2, C1 * R2, C2 * R1  # all is times R1 R2, so that C1/R1 and C2/R2 need no division
     h, l_ = (sum((b[0] * b[i] for b in bodies), zero) for i in (2, 1))
     moments = ((2, 2, 3), (1, 1, 4), (1, 2, 5))
     J1, J2, J12 = (sum((b[0] * b[i] * b[j] + b[k] for b in bodies), zero) for i, j, k in moments)
@@ -107,8 +109,8 @@ class Machine:
             raise Refuted("something in it was changed: sha256 is not that of its numbers and blocks")
         self.four = {"two parts": False, "four bodies": True}[certificate["notation"]]
         self.refined = {"unrefined": False, "refined": True}[certificate["model"]]
-        texts = " ".join(itertools.chain(*(FOUR if self.four else TWO)))
-        self.varied, names = certificate["varied"], texts.replace("-", "").split()
+        names = " ".join(itertools.chain(*(FOUR if self.four else TWO))).replace("-", "").split()
+        self.varied = certificate["varied"]
         numbers = {"g": (9.81).hex(), "delta": "0x0p0", **certificate["machine"], "0": "0x0p0"}
         if not {*self.varied} <= {*numbers} - {FIXED, "0"} or not {*numbers} <= {*names}:
             raise Refuted(f"the block of numbers, or what is varied, has others than {', '.join(names)}")
@@ -175,10 +177,8 @@ def check(certificate: dict[str, Any], tell: Any = lambda cells: None) -> str:
     edges = [[float.fromhex(text) for text in axis] for axis in certificate["edges"]]
     total = prod(len(axis) - 1 for axis in edges)
     ascend = all(-inf < a <= b < inf for axis in edges for a, b in itertools.pairwise(axis))
-    if not ascend or total > MOST_CELLS:
-        raise Refuted("the edges of blocks do not ascend, or are too many")
-    if not (-1.57 < edges[0][0] <= edges[0][-1] < 1.57 and edges[2][0] >= 0):
-        raise Refuted("blocks have tilts that do not meet the ground, or negative speeds")
+    if not ascend or total > MOST_CELLS or max(map(abs, edges[0])) > 1.57 or edges[2][0] < 0:
+        raise Refuted("edges of blocks do not ascend, are too many, tilt beyond 1.57 or have speeds below 0")
     seen: set[tuple[int, ...]] = set()
     for ends, verdict in certificate["blocks"]:
         inside = all(0 <= a < b < len(axis) for (a, b), axis in zip(ends, edges, strict=True))

@@ -248,6 +248,28 @@ def test_edges_that_no_machine_has_are_refused(axis, end, value):
         checker.check(sealed({**json.loads(proof.certificate("1")), "notation": "xx"}))
 
 
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("c", -1.0),
+        ("c", 0.0),
+        ("g", -9.81),
+        ("m1", -1.0),
+        ("A2", -0.1),
+        ("C1", -0.1),
+        ("R1", -0.3),
+        ("R2", 0.0),
+    ],
+)
+def test_numbers_that_no_machine_has_are_refused(name, value):
+    """Conditions are multiplied by lengths, so that their signs would turn with those of lengths."""
+    certificate = json.loads(prove(PAPER, *np.array([[0.2, 0.2], [0.08, 0.08], [4.2, 4.3]])).certificate("1"))
+    for verdict in (STABLE, UNSTABLE):
+        certificate["machine"][name], certificate["blocks"][0][1] = value.hex(), verdict
+        with pytest.raises(checker.Refuted, match="no machine"):
+            checker.check(sealed(certificate))
+
+
 def test_edges_ascend():
     with pytest.raises(InputError, match="ascend"):
         prove(PAPER, np.array([0.21, 0.2]), np.array([0.08, 0.08]), np.array([4.2, 4.5]))
