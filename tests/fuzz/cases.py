@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from bikestab.bicycle import PAPER, preset_names
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.fields import AXES, askable
+from bikestab.gains import GAINS
 from bikestab.notation import MEIJAARD
 from bikestab.yamltext import copied, dumped
 from tests.fuzz.bicycles import damaged_bicycles
@@ -35,11 +36,25 @@ axes = st.one_of(
     nasty,
 )
 parameters = st.dictionaries(
-    st.sampled_from([*PAPER, *MEIJAARD, "name", "source", "x"]), numbers, max_size=30
+    st.sampled_from([*PAPER, *MEIJAARD, *GAINS, "name", "source", "rider", "x"]), numbers, max_size=30
 )
-varied = st.sampled_from([*PAPER, *MEIJAARD, "samples", "seed", "quantiles", "x"])
+varied = st.sampled_from(
+    [
+        *PAPER,
+        *MEIJAARD,
+        *GAINS,
+        "rider.m",
+        "trail",
+        "offset",
+        "correlation",
+        "samples",
+        "seed",
+        "quantiles",
+        "x",
+    ]
+)
 other_axes = st.dictionaries(
-    st.sampled_from([*AXES, *PAPER, "mB", "zB", "head_angle", "trail", "x"]), axes, max_size=4
+    st.sampled_from([*AXES, *PAPER, "mB", "zB", "head_angle", "trail", "x", "y"]), axes, max_size=4
 )
 planes = st.dictionaries(st.sampled_from([*AXES, "x"]), numbers, max_size=2)
 expected = st.sampled_from(["lam", "sigma", "V1", "V2", "within", "stable"])
@@ -67,25 +82,48 @@ GOOD: dict[str, Any] = {
     },
     "expect": [{"lam": 0.2, "sigma": 0.08, "V1": 4.056}, {"lam": 0.1, "sigma": 0.08, "stable": "never"}],
 }
+OPTIONS = [
+    ("--json",), ("--quiet",), ("--force",), ("--certify",), ("--report",), ("--set", "fast=true"),
+    ("--set", "grid.V.num=3"), ("--set", "bicycle=sharp1971"), ("--set", "slices=[{V: 5}]"),
+    ("--set", "x.y=[}"),
+]  # fmt: skip
 assert set(KEYS) == set(ScanConfig.model_fields)
 
 
 @st.composite
-def configs(draw: Any) -> Case:
-    """A config whose values are good, bad or missing, and more keys than there are."""
-    data: dict[str, Any] = copied(GOOD) | {"bicycle": draw(st.sampled_from(preset_names()))}
-    for key in draw(st.lists(st.sampled_from(sorted(KEYS)), max_size=3)):
+def _configs(draw: Any, *, wild: bool) -> bytes:
+    """Values that are good, bad or missing, and more keys than there are; few of these unless ``wild``."""
+    data: dict[str, Any] = copied(GOOD) | {"bicycle": draw(st.sampled_from(preset_names())), "output": "out"}
+    for key in draw(st.lists(st.sampled_from(sorted(KEYS)), max_size=3 if wild else 1)):
         data[key] = draw(KEYS[key])
     if isinstance(data["grid"], dict) and draw(st.booleans()):  # one place deep in it
         axis = data["grid"].get(draw(st.sampled_from(AXES)))
         if isinstance(axis, dict):
-            axis[draw(st.sampled_from(["start", "stop", "num", "values"]))] = draw(numbers)
-    for key in draw(st.lists(st.sampled_from(sorted(data)), max_size=1)):
+            place = draw(
+                st.sampled_from(["start", "stop", "num", "values"] if wild else sorted(axis, key=str))
+            )
+            axis[place] = draw(
+                numbers if wild else st.integers(2, 7) if place != "values" else st.just([0.1, 0.3])
+            )
+    for key in draw(st.lists(st.sampled_from(sorted(data)), max_size=1)) if wild else []:
         del data[key]
-    if draw(st.integers(0, 9)) == 0:
+    if wild and draw(st.integers(0, 9)) == 0:
         data[draw(st.text(max_size=8))] = draw(nasty)
-    text = dumped(data).encode("utf-8", "replace")
-    return Case(("check", "a.yaml"), {"a.yaml": text})
+    return dumped(data).encode("utf-8", "replace")
+
+
+@st.composite
+def configs(draw: Any) -> Case:
+    """A config, checked."""
+    return Case(("check", "a.yaml"), {"a.yaml": draw(_configs(wild=True))})
+
+
+@st.composite
+def scans(draw: Any) -> Case:
+    """A config, scanned: with pictures, and perhaps proofs or a page."""
+    options = draw(st.lists(st.sampled_from(OPTIONS), max_size=2))
+    args = ("scan", "a.yaml", "--jobs", "1", *(part for option in options for part in option))
+    return Case(args, {"a.yaml": draw(_configs(wild=draw(st.integers(0, 3)) == 0))})
 
 
 @st.composite
@@ -96,6 +134,7 @@ def damaged_configs(draw: Any) -> Case:
 
 KINDS: dict[str, st.SearchStrategy[Case]] = {
     "configs": configs(),
+    "scans": scans(),
     "damaged configs": damaged_configs(),
     "damaged bicycles": damaged_bicycles(),
     "damaged certificates": damaged_certificates(),

@@ -1,13 +1,16 @@
 """A few hundred hostile cases of each kind; ``python -m tests.fuzz`` runs as many as are wanted."""
 
+import bikestab_cli.main
+import click
 import pytest
 from hypothesis import HealthCheck, given, settings
 
 from tests.fuzz.cases import KINDS
+from tests.fuzz.commandlines import COMMANDS
 from tests.fuzz.harness import Case, Hang, judged, limited
 
 CASES = 100  # of each kind, but for those that take long
-FEWER = {"damaged certificates": 25, "outputs": 30}
+FEWER = {"damaged certificates": 25, "outputs": 30, "scans": 25}
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -24,6 +27,21 @@ def test_every_command_ends_as_it_has_to(kind):
         judged(case)
 
     check()
+
+
+ELSEWHERE = {"scan", "slice", "reproduce"}  # of the kinds "scans" and "outputs"; reproductions take minutes
+LONG = {("export", "--mesh")}  # among "outputs", with few cells
+
+
+def test_command_lines_know_every_option():
+    context = click.Context(bikestab_cli.main.cli)
+    there = {
+        (name, option.opts[0])
+        for name in set(bikestab_cli.main.COMMANDS) - ELSEWHERE
+        for option in bikestab_cli.main.cli.get_command(context, name).params
+        if isinstance(option, click.Option)
+    }
+    assert there - LONG == {(name, option) for name, (_, options) in COMMANDS.items() for option in options}
 
 
 @pytest.mark.parametrize("error", [ZeroDivisionError("no such luck"), RuntimeWarning("of numpy")])
