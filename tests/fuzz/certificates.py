@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from functools import cache
 from hashlib import sha256
@@ -68,4 +69,4 @@ def _changed(draw: Any, part: Any) -> None:
     elif kind == "double" and isinstance(part, list):
         part.append(part[at])
     else:
-        part[at] = draw(st.sampled_from(NASTY))
+        part[at] = copy.deepcopy(draw(st.sampled_from(NASTY)))
