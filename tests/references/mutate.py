@@ -1,24 +1,30 @@
 """``python tests/references/mutate.py [NUMBER [SEED]]``: which mistakes put into the core tests notice.
 
-A mutant is one operator, comparison, sign or number of a module changed, in a copy of the repository. It is
-noticed where the tests named beside the module fail or take more than SECONDS of processor time; others are
-told, with the line as Python writes it. More mutants of the same seed are the fewer ones first.
+A mutant is one operator, comparison, sign or number of a module changed. Each is tried in a fork of this
+process, which has everything imported but bikestab itself: the tests that noticed the most before first, then
+the shortest. It is noticed where a test fails, or where all of them take more than SECONDS of processor time;
+others are told, with the line as Python writes it. More mutants of the same seed are the fewer ones first.
 """
 
 import ast
-import functools
+import importlib
+import importlib.machinery
 import os
+import pickle
 import random
 import resource
-import shutil
-import subprocess
+import signal
 import sys
-import tempfile
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 
+import pytest
+from hypothesis import Phase, settings
+
 ROOT = Path(__file__).parents[2]
-SECONDS = 60
+SECONDS = 90
+REWRITTEN = "ignore::pytest.PytestAssertRewriteWarning"  # of what is imported before it is
 TESTS = {
     "model": ["test_model.py", "test_routh.py"],
     "polynomials": ["test_polynomials.py", "test_routh.py", "test_roots.py"],
@@ -26,6 +32,7 @@ TESTS = {
     "roots": ["test_polynomials.py", "test_roots.py"],
     "speeds": ["test_isolation.py", "test_speeds.py"],
 }
+SHARED = ["test_stability.py", "test_bounds.py", "test_unordered.py", "test_machines.py", "test_motion.py"]
 _SWAPPED = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.Pow: ast.Mult,
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq,
@@ -59,44 +66,114 @@ def _places(tree):
             yield node, lambda node=node: setattr(node, "value", node.value + 1)
 
 
-def noticed(folder, name):
-    """Whether the tests of a module fail in a copy of the repository."""
-    tests = [f"tests/{test}" for test in TESTS[name]]
-    environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder}/cli", "PYTHONDONTWRITEBYTECODE": ""}
-    limits = functools.partial(resource.setrlimit, resource.RLIMIT_CPU, (SECONDS, SECONDS))
-    options = {"cwd": folder, "env": environment, "capture_output": True, "preexec_fn": limits}
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests]
-    return bool(subprocess.run(command, **options).returncode)
+class Order:
+    """A plugin of pytest: what noticed more comes first, then what is shorter; knows the first that fails."""
+
+    def __init__(self, seconds, kills):
+        self.seconds, self.kills, self.killer = seconds, kills, ""
+
+    def pytest_collection_modifyitems(self, items):
+        items.sort(key=lambda item: (-self.kills[item.nodeid], self.seconds.get(item.nodeid, 0)))
+
+    def pytest_runtest_logreport(self, report):
+        self.seconds[report.nodeid] = self.seconds.get(report.nodeid, 0) + report.duration
+        if report.failed and not self.killer:
+            self.killer = report.nodeid
 
 
-def main(number=100, seed=0):
+def _in_a_fork(task, *args):
+    """What ``task(*args)`` returns in a copy of this process; None where it takes too long or crashes."""
+    ours, theirs = os.pipe()
+    child = os.fork()
+    if not child:
+        with suppress(BaseException):
+            resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+            os.dup2(1, 2)
+            answer = pickle.dumps(task(*args))
+            with open(theirs, "wb") as out:  # noqa: PTH123  # open already
+                out.write(answer)
+        os.kill(os.getpid(), signal.SIGKILL)
+    os.close(theirs)
+    with open(ours, "rb") as pipe:  # noqa: PTH123
+        answer = pipe.read()
+    os.waitpid(child, 0)
+    return pickle.loads(answer) if answer else None
+
+
+def _tested(tests, order):
+    """The exit code of pytest, and what the plugin knows then."""
+    options = ["-x", "-q", "-n0", "-p", "no:cacheprovider", "-W", REWRITTEN]
+    code = pytest.main([*options, *(f"tests/{test}" for test in tests)], plugins=[order])
+    return int(code), order.killer, order.seconds, [name for name in sys.modules if _foreign(name)]
+
+
+def _foreign(name):
+    return name.split(".")[0] not in (
+        "bikestab",
+        "bikestab_cli",
+        "tests",
+        "conftest",
+        "__main__",
+        "__mp_main__",
+    )
+
+
+def _mutant(name, text, tests, order):
+    """The tests of a module whose text is another."""
+    plain = importlib.machinery.SourceFileLoader.get_code
+
+    def get_code(self, fullname):
+        if fullname == f"bikestab.{name}":
+            return compile(text, str(ROOT / f"bikestab/{name}.py"), "exec")
+        return plain(self, fullname)
+
+    importlib.machinery.SourceFileLoader.get_code = get_code
+    return _tested(tests, order)
+
+
+def _difference(before, text):
+    pairs = zip(before.split("\n"), text.split("\n"), strict=True)
+    was, now = next(pair for pair in pairs if pair[0] != pair[1])
+    return f"{was.strip()} -> {now.strip()}"
+
+
+def main(number=10_000, seed=0):
     """Try so many mutants, drawn at random."""
-    every = [(name, *mutant) for name in TESTS
-             for mutant in mutants((ROOT / f"bikestab/{name}.py").read_text("utf-8"))]  # fmt: skip
+    os.chdir(ROOT)
+    settings.register_profile(
+        "mutants", database=None, deadline=None, phases=(Phase.explicit, Phase.generate)
+    )
+    settings.load_profile("mutants")
+    texts = {name: (ROOT / f"bikestab/{name}.py").read_text("utf-8") for name in TESTS}
+    every = [(name, *mutant) for name in TESTS for mutant in mutants(texts[name])]
     drawn, counts = random.Random(seed).sample(every, len(every))[:number], Counter()
-    with tempfile.TemporaryDirectory() as folder:
-        for part in ("bikestab", "cli", "tests", "configs", "docs"):
-            shutil.copytree(ROOT / part, Path(folder, part))
-        shutil.copy(ROOT / "pyproject.toml", folder)
-        for name in TESTS:
-            assert not noticed(folder, name), f"the tests of {name} fail as it stands"
-        for name, line, text in drawn:
-            path = Path(folder, f"bikestab/{name}.py")
-            whole = path.read_text("utf-8")
-            before = ast.unparse(ast.parse(whole))
-            path.write_text(text, "utf-8")
-            found = noticed(folder, name)
-            path.write_text(whole, "utf-8")
-            counts[name, found] += 1
-            if not found:
-                was, now = next(pair for pair in zip(before.split("\n"), text.split("\n"), strict=True)
-                                if pair[0] != pair[1])  # fmt: skip
-                print(f"not noticed: {name}.py, line {line}: {was.strip()} -> {now.strip()}", flush=True)
+    times, kills = _as_it_stands()
+    for name, line, text in drawn:
+        answer = _in_a_fork(_mutant, name, text, [*TESTS[name], *SHARED], Order(times, kills))
+        found = answer is None or bool(answer[0])
+        counts[name, found] += 1
+        if answer:
+            kills[answer[1]] += 1
+        if not found:
+            before = ast.unparse(ast.parse(texts[name]))
+            print(f"not noticed: {name}.py, line {line}: {_difference(before, text)}", flush=True)
     for name in TESTS:
         tried = counts[name, True] + counts[name, False]
         print(f"{name}: {counts[name, True]} of {tried} noticed")
     used = sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
     print(f"all: {len(every)} mutants, {len(drawn)} tried in {used:.0f} s of processor time")
+
+
+def _as_it_stands():
+    """How long each test takes; what they import is imported here, so that no fork has to."""
+    every = sorted({test for tests in TESTS.values() for test in tests} | set(SHARED))
+    code, killer, times, foreign = _in_a_fork(_tested, every, Order({}, Counter()))
+    assert code == 0, f"{killer} fails as it stands"
+    for module in foreign:
+        with suppress(Exception):
+            importlib.import_module(module)
+    return times, Counter()
 
 
 if __name__ == "__main__":
