@@ -11,9 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from bikestab.family import Family
 from bikestab.fields import AXES
@@ -43,6 +44,11 @@ class _Quick(Family):
         return self.quick_table(x, y, others)
 
 
+def _triangles(points: Floats) -> NDArray[np.integer]:
+    """Delaunay's, by the library that matplotlib has of its own, so that scipy need not be imported."""
+    return np.asarray(Triangulation(*points).triangles)
+
+
 @own_settings()
 def draw_region(subject: Subject) -> Figure:
     """The boundary surface within a volume's axes, weave and capsize sheets in two colours."""
@@ -50,7 +56,7 @@ def draw_region(subject: Subject) -> Figure:
     family = subject.family
     labels = labels_of(family)
     quick = _Quick(family.bicycle, family.model, family.x, family.y)
-    mesh = region_mesh(quick, box[0], box[1], box[2], cells=_CELLS)
+    mesh = region_mesh(quick, box[0], box[1], box[2], cells=_CELLS, delaunay=_triangles)
     figure = Figure(figsize=(7.4, 6.4))
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     bicycle = family.bicycle

@@ -15,7 +15,7 @@ from bikestab.region.heights import Heights, heights
 from bikestab.region.partition import partitioned
 from bikestab.region.patches import Partition
 from bikestab.region.shell import UPPER, WALL, parted, shell
-from bikestab.region.triangulation import Index, triangulated
+from bikestab.region.triangulation import Delaunay, Index, by_scipy, triangulated
 from bikestab.spectrum import growth_rate_of
 
 _TRACED = 2  # samples of the curves in a cell
@@ -59,16 +59,17 @@ def region_mesh(
     V: tuple[float, float],
     *,
     cells: int = 100,
+    delaunay: Delaunay = by_scipy,
 ) -> Mesh:
     """The boundary of the stable region within a box x × y × V [m/s] of a family.
 
     ``cells`` is the number of triangles along x and along y; what is smaller than a cell and bounded by
-    no traced curve is not seen.
+    no traced curve is not seen. ``delaunay`` makes triangles of points.
     """
     box = Box(family, np.array([x, y], dtype=float), V)
     samples = _TRACED * cells + 1
     curves, lines = trace(family, x, y, V, samples=samples), leaving(box, samples=samples)
-    plane = partitioned(box, *triangulated(box, curves, lines, cells))
+    plane = partitioned(box, *triangulated(box, curves, lines, cells, delaunay))
     high = heights(box, plane)
     faces = shell(box, plane, high)
     corners, height = parted(faces.corners)

@@ -16,12 +16,11 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from bikestab.region.columns import kind_of, number_of
 from bikestab.region.events import Box
 from bikestab.region.heights import ON, Heights, distance
+from bikestab.region.neighbours import connected
 from bikestab.region.patches import Partition
 from bikestab.region.triangulation import Index, sides_of
 from bikestab.speeds import CAPSIZE, NONE, WEAVE
@@ -178,9 +177,7 @@ def parted(corners: Index) -> tuple[Index, Index]:
         turned = (nth[two] + turn[side[two]]) % pairs[side[two]]
         other = two[np.lexsort((turned, side[two]))]
         a, b = np.concatenate([[at_low[one], at_low[other]], [at_high[one], at_high[other]]], axis=1)
-        graph = coo_array((np.ones(len(a), bool), (a, b)), shape=(len(old), len(old)))
-        _, part = connected_components(graph, directed=False)
-        unique, number = np.unique(old * len(old) + part, return_inverse=True)
+        unique, number = np.unique(old * len(old) + connected(a, b, len(old)), return_inverse=True)
         new = number.reshape(-1, 3)
         crowded = np.bincount(sides_of(new)[1].ravel())[sides_of(new)[1].ravel()] > 2
         if not crowded.any():

@@ -2,36 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay, cKDTree
 
 from bikestab.model import Floats
 from bikestab.region.curves import Curve
 from bikestab.region.events import Box
+from bikestab.region.neighbours import near
 
 Index = NDArray[np.intp]
+Delaunay = Callable[[Floats], NDArray[np.integer]]  # points (2, n) → triangles (m, 3)
 _LAYERS = np.array([1, 4, 9, 16]) / 16  # of a cell, beside a fold, where V goes as the square root
 _FLAT = 1e-14  # area of a triangle, in boxes, that Delaunay's method makes of points on one line
 
 
 def triangulated(
-    box: Box, curves: Sequence[Curve], lines: Sequence[Floats], cells: int
+    box: Box, curves: Sequence[Curve], lines: Sequence[Floats], cells: int, delaunay: Delaunay
 ) -> tuple[Floats, Index, int]:
     """Points (2, point) in units of the box and triangles (triangle, 3) of them, anticlockwise.
 
     There are ``cells`` triangles along each side; the first points are those of the curves and lines
-    (2, point), as many as the third result tells.
+    (2, point), as many as the third result tells. They are those of ``delaunay``.
     """
     traced, others = _points(box, curves, lines, 1 / cells)
     points = np.concatenate([traced, others], axis=1)
-    triangles: Index = Delaunay(points.T).simplices.astype(np.intp)
+    triangles: Index = delaunay(points).astype(np.intp)
     a, b, c = points[:, triangles.T].swapaxes(0, 1)
     area = (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]
     triangles[area < 0] = triangles[area < 0][:, ::-1]
     return points, triangles[np.abs(area) > _FLAT], traced.shape[1]
+
+
+def by_scipy(points: Floats) -> NDArray[np.integer]:
+    """Delaunay's triangles."""
+    from scipy.spatial import Delaunay as Method  # takes longer to import than most meshes to make
+
+    return np.asarray(Method(points.T).simplices)
 
 
 def _points(box: Box, curves: Sequence[Curve], lines: Sequence[Floats], step: float) -> tuple[Floats, Floats]:
@@ -54,13 +62,12 @@ def _points(box: Box, curves: Sequence[Curve], lines: Sequence[Floats], step: fl
     beside = beside[:, ((beside > 0.02 * step) & (beside < 1 - 0.02 * step)).all(axis=0)]
     grid = _grid(step)
     if traced.size:
-        tree = cKDTree(traced.T)
-        beside = beside[:, tree.query(beside.T)[0] > 0.05 * step] if beside.size else beside
+        beside = beside[:, ~near(beside, traced, 0.05 * step)]
         corner = np.isin(grid, (0.0, 1.0)).all(axis=0)
-        grid = grid[:, corner | (tree.query(grid.T)[0] > 0.4 * step)]
+        grid = grid[:, corner | ~near(grid, traced, 0.4 * step)]
     if beside.size:
         rim = np.isin(grid, (0.0, 1.0)).any(axis=0)
-        grid = grid[:, rim | (cKDTree(beside.T).query(grid.T)[0] > 0.4 * step)]
+        grid = grid[:, rim | ~near(grid, beside, 0.4 * step)]
     return traced, np.concatenate([beside, grid], axis=1)
 
 

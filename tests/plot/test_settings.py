@@ -80,3 +80,19 @@ def test_the_import_leaves_the_users_settings(tmp_path):
         env={**os.environ, "MPLBACKEND": "svg"},
     )  # fmt: skip
     assert done.stdout == f"31.0 svg\n{tmp_path} svg\n0\n"
+
+
+def test_matplotlib_is_left_as_it_is(tmp_path):
+    program = (
+        "import gc, sys\n{first}import bikestab.plot\n"
+        "from matplotlib.artist import Artist, kwdoc\n"
+        "from matplotlib.lines import Line2D\n"
+        "class Line(Line2D): pass\n"
+        "print(gc.isenabled(), 'linewidth' in kwdoc(Line2D), 'linewidth' in (Line.set.__doc__ or ''))\n"
+        "print('linewidth' in (Line2D.set.__doc__ or ''))"
+    )
+    for first, documented in (("", "False"), ("sys.ps1 = '>>> '\n", "True")):  # as at a prompt
+        run = subprocess.run(
+            [sys.executable, "-c", program.format(first=first)], cwd=tmp_path, capture_output=True, text=True
+        )
+        assert run.stdout.split("\n") == ["True True True", documented, ""], run.stderr
