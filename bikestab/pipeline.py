@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
@@ -97,6 +97,8 @@ def scan(
     except InputError as error:
         raise error.at(place) from None
     paths = write_pictures(loaded, done.path, drawn, _warn)
+    if not done.computed:  # it may have proofs, which are drawn again too
+        paths += write_proofs(loaded, done.path)
     return Scan(done.path, tuple(paths), done.computed, done.points, done.stable_points)
 
 
@@ -130,9 +132,24 @@ def write_pictures(
         from bikestab.plot.pictures import draw_from_volume  # matplotlib takes half a second
 
         files = {**files, **draw_from_volume(config, path)}
-    paths = {Path(path).parent / name: content for name, content in files.items() if content is not None}
-    for picture, content in paths.items():
-        with written(picture) as part:
+    return _written(path, {name: content for name, content in files.items() if content is not None})
+
+
+def write_proofs(config: ScanConfig, path: str | Path) -> list[Path]:
+    """Write pictures of what is proved in the config's planes beside the volume, if anything is."""
+    with Volume(path) as volume:
+        if not config.slices or "certified" not in volume.file:
+            return []
+        from bikestab.plot.pictures import draw_proofs  # matplotlib takes half a second
+
+        return _written(path, draw_proofs(config, volume))
+
+
+def _written(volume: str | Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write files beside a volume; their paths."""
+    paths = {Path(volume).parent / name: content for name, content in files.items()}
+    for path, content in paths.items():
+        with written(path) as part:
             part.write_bytes(content)
     return list(paths)
 

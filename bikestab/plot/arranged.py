@@ -31,17 +31,19 @@ def title_place(ax: Axes) -> dict[str, Any]:
     return {"y": 1.0, "pad": 72 * (_above(ax) + _TITLE)}
 
 
-def arrange_plane(figure: Figure, ax: Axes, bar: Axes, rows: int) -> None:
-    """Put axes with a title, their colour bar and a legend of so many rows into a figure."""
+def arrange_plane(figure: Figure, ax: Axes, bar: Axes | None, rows: int) -> None:
+    """Put axes with a title, their colour bar if any, and a legend of so many rows into a figure."""
     width, height = figure.get_size_inches()
     x0 = _EDGE + _BESIDE + _numbers(ax.yaxis)
     y0 = _legend(rows) + _UNDER
     y1 = height - _title(ax) - _above(ax)
-    x1 = width - _EDGE - _BESIDE - _numbers(bar.yaxis) - _BAR
-    bar.set_aspect("auto")
-    bar.set_position((x1 / width, y0 / height, _BAR / width, (y1 - y0) / height))
+    x1 = width - _EDGE
+    if bar:
+        x1 -= _BESIDE + _numbers(bar.yaxis) + _BAR
+        bar.set_aspect("auto")
+        bar.set_position((x1 / width, y0 / height, _BAR / width, (y1 - y0) / height))
     second = any(child.get_ylabel() for child in ax.child_axes)
-    x1 -= _TO_BAR + (_BESIDE + _RIGHT if second else 0.0)
+    x1 -= (_TO_BAR if bar or not second else 0.0) + (_BESIDE + _RIGHT if second else 0.0)
     ax.set_position((x0 / width, y0 / height, (x1 - x0) / width, (y1 - y0) / height))
 
 

@@ -86,6 +86,15 @@ def draw_from_volume(config: ScanConfig, path: str | Path) -> dict[str, bytes]:
         }
 
 
+def draw_proofs(config: ScanConfig, volume: Volume) -> dict[str, bytes]:
+    """The pictures of what is proved in the config's planes."""
+    planes = [plane.fixed for plane in config.slices]
+    return {
+        slice_name({fixed: value}, "certified"): drawn(draw_slice(volume, fixed, value, "certified"))
+        for fixed, value in planes
+    }
+
+
 def _subject(config: ScanConfig, member: int) -> _Subject:
     values = ", ".join(f"{name} = {value:g}" for name, value in config.members[member].values.items())
     title = config.heading + (f" ({values})" if values else "")

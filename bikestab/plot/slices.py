@@ -1,4 +1,4 @@
-"""The picture of a plane of a volume: exact boundary curves over the growth rate or the probability."""
+"""The picture of a plane of a volume: exact boundary curves over growth rate, probability or proofs."""
 
 from __future__ import annotations
 
@@ -18,26 +18,27 @@ from bikestab.plot.axes import SYMBOLS, head_angle, label_family, remarks
 from bikestab.plot.colours import GROWTH, OWN, colour_growth_rate, colour_probability, shares
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import EDGES, draw_on_white, entry, legend_below, straight_fork
+from bikestab.plot.proved import colour_proved, proved_in_plane
 from bikestab.plot.settings import own_settings
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import conditions, violated
 from bikestab.spectrum import growth_rate_of
 from bikestab.volume import Subject, Volume, check_ranges
 
+PlaneField = Literal["growth_rate", "probability", "certified"]
 # per axis, for finding the curves, whose points are then moved onto the exact zero: each value of tilt and
 # trail together needs a table of its own in a plane of one speed
 _SAMPLES, _SAMPLES_OF_DESIGNS = 401, 201
 
 
 @own_settings()
-def draw_slice(
-    subject: Subject, fixed: Axis, value: float, field: Literal["growth_rate", "probability"] = "growth_rate"
-) -> Figure:
+def draw_slice(subject: Subject, fixed: Axis, value: float, field: PlaneField = "growth_rate") -> Figure:
     """The picture of the plane in which ``fixed`` has ``value``, of a volume or of what will be one.
 
     The growth rate is computed for that plane, as it is for a volume; the probability of an ensemble, which
-    must be a volume's, is that of the nearest plane of the grid. Raises InputError for a value outside the
-    grid, for a plane of which the grid has a line alone, and where there is no ensemble.
+    must be a volume's, is that of the nearest plane of the grid; what is ``certified``, a volume's too, is so
+    of the plane itself. Raises InputError for a value outside the grid, for a plane of which the grid has a
+    line alone, and where there is no ensemble or no proof.
     """
     axis = subject.axis(fixed)
     if not axis[0] <= value <= axis[-1]:
@@ -46,31 +47,20 @@ def draw_slice(
             place=str(subject.path),
             hint=f"allowed: {axis[0]:g} ... {axis[-1]:g}",
         )
-    volume = subject if field == "probability" and isinstance(subject, Volume) else None
     if field == "probability":
-        if volume is None or field not in volume.fields:
-            problem, hint = "has no probability", "a config with 'ensemble:' gives one"
-            raise InputError(problem, place=str(subject.path), hint=hint)
         value = on_grid(axis, value)
     section = Section(subject.family, fixed, value)
     check_ranges(subject, section.axes, "a picture")
     x, y = (subject.axis(name) for name in section.axes)
     figure = Figure(figsize=(7.4, 5.2))
     ax = figure.add_subplot()
-    if volume:
-        probability = _probability(volume, fixed, value)
-        bar = colour_probability(figure, ax, x, y, probability, volume.samples)
-        handles = _edges(ax, section, x, y, "boundary without the spread") + shares(probability)
-    else:
-        growth = growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
-        bar = colour_growth_rate(figure, ax, x, y, growth)
-        handles = _stable_region(ax, section, x, y)
+    bar, handles = _coloured(figure, ax, subject, section, field)
     if subject.axes == AXES and fixed == "V" and handles:
         ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
         handles += straight_fork(ax, subject.family.bicycle)
     handles += _own_design(ax, section)
     _decorate(ax, subject, section)
-    arrange_plane(figure, ax, bar, legend_below(figure, handles))
+    arrange_plane(figure, ax, bar, legend_below(figure, handles, 3 if bar or len(handles) < 6 else 2))
     return figure
 
 
@@ -78,6 +68,26 @@ def on_grid(axis: Floats, value: float) -> float:
     """The value of the nearest plane of the grid, unless they differ by no more than rounding."""
     near = float(axis[np.argmin(np.abs(axis - value))])
     return value if abs(near - value) <= 1e-9 * (axis[-1] - axis[0]) else near
+
+
+def _coloured(
+    figure: Figure, ax: Axes, subject: Subject, section: Section, field: PlaneField
+) -> tuple[Axes | None, list[Any]]:
+    """Draw a plane's field and curves; the axes of its colour bar if it has one, and what the legend says."""
+    x, y = (subject.axis(name) for name in section.axes)
+    if field == "certified":
+        cells = proved_in_plane(subject, section.fixed, section.value)
+        return None, [*colour_proved(ax, x, y, cells), *_edges(ax, section, x, y)]
+    if field == "probability":
+        if not isinstance(subject, Volume) or field not in subject.fields:
+            problem, hint = "has no probability", "a config with 'ensemble:' gives one"
+            raise InputError(problem, place=str(subject.path), hint=hint)
+        probability = _probability(subject, section.fixed, section.value)
+        bar = colour_probability(figure, ax, x, y, probability, subject.samples)
+        return bar, _edges(ax, section, x, y, "boundary without the spread") + shares(probability)
+    growth = growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
+    bar = colour_growth_rate(figure, ax, x, y, growth)
+    return bar, _stable_region(ax, section, x, y)
 
 
 def _probability(volume: Volume, fixed: Axis, value: float) -> Floats:

@@ -66,6 +66,8 @@ def command(
     """
     if jobs and scheduler:
         raise click.UsageError("--jobs is for this machine, --scheduler for a cluster; give one of them")
+    from bikestab.pipeline import write_proofs
+
     loaded = _load(configs, overrides, certify, report)
     done: list[dict[str, object]] = []
     try:
@@ -78,6 +80,8 @@ def command(
                 result, pictures = _run(name, config, force, jobs, scheduler or "", quiet)
                 if certify:
                     _certify(name, config, result.path, quiet)
+                if certify or not result.computed:
+                    pictures += write_proofs(config, result.path)
                 page = _page(result.path) if report else None
             done.append(_summary(name, config, result, pictures, page))
             if not as_json:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.options import (
@@ -19,6 +19,7 @@ from bikestab_cli.options import (
 from bikestab_cli.output import tell_file
 
 if TYPE_CHECKING:
+    from bikestab.plot.slices import PlaneField
     from bikestab.volume import Volume
 
 
@@ -36,6 +37,9 @@ if TYPE_CHECKING:
     help="Of an ensemble: how probable stability is, not the growth rate.",
 )
 @click.option(
+    "--certified", is_flag=True, help="What 'scan --certify' has proved of the cells, not the growth rate."
+)
+@click.option(
     "-o",
     "--output",
     type=FILE,
@@ -45,20 +49,25 @@ if TYPE_CHECKING:
 def command(
     volume: str, lam: float | None, sigma: float | None, V: float | None,
     head_angle: float | None, trail: float | None, machine: dict[str, float],
-    probability: bool, output: str | None,
+    probability: bool, certified: bool, output: str | None,
 ) -> None:  # fmt: skip
     """Draw any plane of a volume.
 
     One of the three axes is fixed; of a grid over other parameters by --at, as --at mB=85. VOLUME is a
     volume.h5 or its folder. The value need not be on the grid: the growth rate is then computed for that
-    plane, while a probability is that of the nearest plane. The boundary curves are exact in either case.
+    plane, while a probability is that of the nearest plane; what is proved is so of the plane itself. The
+    boundary curves are exact in any case.
 
     \b
     Examples:
       bikestab slice out/quick --lam 0.2
       bikestab slice out/quick --head-angle 78deg -o steep.png
       bikestab slice out/quick/volume.h5 --V 18km/h -o speed.png
+      bikestab slice out/proved --sigma 0.08 --certified
     """
+    if probability and certified:
+        problem = "--probability and --certified are two pictures; give one of them"
+        raise click.UsageError(problem, click.get_current_context())
     from bikestab.geometry import design_given
     from bikestab.plot.files import save, slice_name
     from bikestab.plot.slices import draw_slice, on_grid
@@ -74,7 +83,9 @@ def command(
             with told_as_options():
                 design = design_given({fixed: value}, bicycle.c, bicycle.R2)
             fixed, value = ("lam", float(design[0])) if fixed == "head_angle" else ("sigma", float(design[1]))
-        field: Literal["growth_rate", "probability"] = "probability" if probability else "growth_rate"
+        field: PlaneField = "growth_rate"
+        if probability or certified:
+            field = "probability" if probability else "certified"
         if probability and (near := on_grid(opened.axis(fixed), value)) != value:
             click.echo(f"note: the nearest plane of the grid is drawn, {fixed} = {near:.6g}", err=True)
             value = near

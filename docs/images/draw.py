@@ -23,6 +23,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from bikestab.bicycle import Bicycle
+from bikestab.certified import add_certified
 from bikestab.config.file import load_config
 from bikestab.design.best import best_designs
 from bikestab.design.criteria import Wanted
@@ -47,6 +48,10 @@ def figures() -> Iterator[tuple[str, Figure]]:
         yield "region.png", draw_region(volume)
     with scanned("spread.yaml", "grid.lam.num=3", "sweep={}") as volume:
         yield "probability.png", draw_slice(volume, "lam", float(volume.axis("lam")[1]), "probability")
+    with scanned(
+        "dikarev1981.yaml", "grid.lam.num=61", "grid.V.num=76", "grid.sigma.num=76", proved=True
+    ) as volume:
+        yield "certified.png", draw_slice(volume, "sigma", 0.15, "certified")
     dikarev = Bicycle.preset("dikarev1981")
     wanted = Wanted(Family(dikarev))
     yield "design.png", draw_designs(wanted, best_designs(wanted), trace(wanted.family, wanted.x, wanted.y))
@@ -57,11 +62,14 @@ def figures() -> Iterator[tuple[str, Figure]]:
     yield "figure3.png", draw_sections(dikarev, 401)
 
 
-def scanned(config: str, *overrides: str) -> Volume:
-    """The volume of a config; its file is gone when it is closed."""
+def scanned(config: str, *overrides: str, proved: bool = False) -> Volume:
+    """The volume of a config, with its cells ``proved`` or not; its file is gone when it is closed."""
     with TemporaryDirectory() as folder:
         loaded = load_config(CONFIGS / config, [*overrides, "slices=[]", f"output={folder}"])
-        return Volume(run_scan(loaded).path)
+        path = run_scan(loaded).path
+        if proved:
+            add_certified(path, loaded.machine, loaded.model)
+        return Volume(path)
 
 
 def contents(figure: Figure) -> dict[str, Any]:

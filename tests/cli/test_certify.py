@@ -5,6 +5,8 @@ import math
 
 import pytest
 
+from tests.plot.test_proved import CONFIG
+
 BOX = ["--bicycle", "meijaard2007", "--lam", "17deg:19deg", "--sigma", "0.07:0.085"]
 KEYS = {"verdict", "proved_stable", "proved_unstable", "undecided", "counterexample"}
 
@@ -117,3 +119,20 @@ def test_a_certificate_is_written_and_checked(bikestab, tmp_path):
         code, out, err = bikestab("certify", "--verify", path)
         assert (code, out) == (2, "")
         assert "is no certificate of bikestab" in err
+
+
+def test_a_scan_draws_them_and_so_does_slice(bikestab, tmp_path):
+    path = tmp_path / "scan.yaml"
+    path.write_text(CONFIG.replace("OUT", str(tmp_path / "out")).replace("16", "4"))
+    names = {"certified_lam_0.2.png", "certified_V_5.png"}
+    assert bikestab("scan", path, "--quiet")[0] == 0
+    assert not names & {each.name for each in (tmp_path / "out").iterdir()}
+    for more in (["--certify"], []):  # when they are there they are drawn again
+        code, out, _ = bikestab("scan", path, "--quiet", *more)
+        assert (code, "5 pictures" in out) == (0, True)
+        for name in names:
+            (tmp_path / "out" / name).unlink()
+    assert bikestab("slice", tmp_path / "out", "--sigma", "0.1", "--certified")[0] == 0
+    assert (tmp_path / "out" / "certified_sigma_0.1.png").is_file()
+    code, _, err = bikestab("slice", tmp_path / "out", "--V", "5", "--certified", "--probability")
+    assert (code, "give one of them" in err) == (2, True)
