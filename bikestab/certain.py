@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.isolation import brackets
+from bikestab.isolation import Brackets, brackets
 from bikestab.model import Floats
 from bikestab.polynomials import Polynomial
 from bikestab.roots import bracketed_root
@@ -82,13 +82,19 @@ def square_roots(zeros: Zeros) -> Zeros:
     return Zeros(V_, rest, radius, zeros.sure)
 
 
-def zeros_of(polynomial: Polynomial, number: int, error: float = COEFFICIENT) -> Zeros:
+def zeros_of(
+    polynomial: Polynomial,
+    number: int,
+    error: float = COEFFICIENT,
+    found: tuple[Brackets, NDArray[np.bool_]] | None = None,
+) -> Zeros:
     """Of any polynomials in ``number`` cells: isolated by the signs of their Bernstein coefficients.
 
     Between two doubles that are neighbours at most one zero is found; then, and where a sign is not certain,
-    the cell is not ``sure``. A coefficient's ``error`` is relative to its size.
+    the cell is not ``sure``. A coefficient's ``error`` is relative to its size. Brackets that are ``found``
+    already are taken as they are.
     """
-    (cell, low, high, sign), sure = brackets(polynomial, number, error)
+    (cell, low, high, sign), sure = found or brackets(polynomial, number, error)
     c = [None if a is None else a.at(cell) for a in polynomial]
     plain = np.array([np.zeros(len(cell)) if a is None else a.value for a in c])
     start = bracketed_root(plain, low, high, sign)

@@ -21,6 +21,7 @@ from bikestab.corrected import (
     zeros_of_quadratic,
 )
 from bikestab.entries import DAMPED, EVEN, Cells, Entries, cells_of, scaled
+from bikestab.isolation import guessed
 from bikestab.model import ExactTable, Floats
 from bikestab.rounding import CANCELLED
 from bikestab.routh import CONDITIONS, hurwitz3_of
@@ -102,7 +103,7 @@ def _even(entries: Entries, name: str) -> Found:
     if name == "hurwitz3":
         w = _hurwitz3_even(entries.doubles())
         found = _found(zeros_of_quadratic(entries, _EVEN_HURWITZ3, w), w)
-        return _again(found, entries, _fine_even, _left_even)
+        return _again(found, entries, _fine_even, _left_even, _fine_even)
     if name in ("p3", "p4"):
         return _found(_none(len(entries)), [numbers[(3, 1) if name == "p3" else (4, 0)]])
     a, b = {"p0": ((0, 0), (0, 2)), "p1": ((1, 1), (1, 3)), "p2": ((2, 0), (2, 2))}[name]
@@ -151,7 +152,7 @@ def _damped(entries: Entries, name: str) -> Found:
     found = _found(zeros_between(entries, condition, c), c)
     if name == "p1":
         return _again(found, entries, _fine_p1)
-    return _again(found, entries, _fine_hurwitz3, _left_hurwitz3)
+    return _again(found, entries, _fine_hurwitz3, _left_hurwitz3, _guessed_hurwitz3)
 
 
 def _fine_p1(entries: Entries) -> Found:
@@ -170,8 +171,14 @@ def _left_hurwitz3(entries: Entries) -> Found:
     return _found(zeros_of(polynomial, len(entries), CANCELLED), polynomial)
 
 
+def _guessed_hurwitz3(entries: Entries) -> Found:
+    """By the coefficients' signs as they are computed, so that the sign before and the zeros fit together."""
+    polynomial = hurwitz3_of(_rows(entries.numbers))
+    return _found(zeros_of(polynomial, len(entries), found=guessed(polynomial, len(entries))), polynomial)
+
+
 def _again(found: Found, entries: Entries, *ways: Callable[[Entries], Found]) -> Found:
-    """With the cells that are not sure done again, in one way after the other."""
+    """With the cells that are not sure done again, in one way after the other; the last one's are kept."""
     zeros, sign = found
     for way in ways:
         poor = np.flatnonzero(~zeros.sure)

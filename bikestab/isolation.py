@@ -72,6 +72,12 @@ def brackets(coefficients: Sequence[Twofold | None], number: int, error: float) 
     return found, ~undecided
 
 
+def guessed(coefficients: Sequence[Twofold | None], number: int) -> tuple[Brackets, _Flags]:
+    """As ``brackets``, by the coefficients' signs as they are; no cell is sure."""
+    work = _halves(coefficients, number, _MIDDLES[0])
+    return _isolated(work, number, _MIDDLES[0], 0.0, 0.0)[0], np.zeros(number, bool)
+
+
 def isolated(coefficients: Sequence[Double | None], number: int) -> tuple[Brackets, _Flags]:
     """As ``brackets``, in double precision: and which cells it leaves undecided."""
     work = _plain_halves(coefficients, number, _MIDDLES[0])

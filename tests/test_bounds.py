@@ -163,6 +163,41 @@ def test_the_marginal_is_told_with_its_reason():
         assert abs(mpf(float(found.V1[0])) - 1 / mp.sqrt(3)) <= found.V1_error[0]
 
 
+# next to a trail at which a weave speed leaves to rest or infinity; truth from verify_speeds, in 400 bits
+UNDECIDED = [
+    ("dikarev1981", {"delta": 1e-9}, 0.1, 0.10422909769221915, 0, None),
+    ("dikarev1981", {
+        "c": 1.2811714089672557, "g": 9.81, "m1": 100.74925625856383, "m2": 1.2548133533445975,
+        "l1": 0.7780460278055086, "h1": 0.7976850277945502, "l2": 1.1929650849595033,
+        "h2": 0.6823841937162396, "A1": 6.489829370114563, "B1": 2.6638918832843164,
+        "D1": 0.7163935550572883, "C1": 0.9217531511010721, "R1": 0.19441819923750522,
+        "A2": 0.013959968244554912, "B2": 0.1536134656705493, "D2": 0.03902078921225231,
+        "C2": 0.00668743037032771, "R2": 0.1691818813583107, "delta": 9.79249535847081e-10,
+    }, -0.23486334624117444, 0.0034489643377604478, 0, None),
+    ("dikarev1981", {
+        "c": 1.5940371705825487, "g": 9.81, "m1": 224.2218305321198, "m2": 24.013143855301585,
+        "l1": 0.7201967474567785, "h1": 0.7901496047717791, "l2": 1.2449915690424065,
+        "h2": 0.9969660597119279, "A1": 3.767252933421783, "B1": 50.29894838449083,
+        "D1": -8.024963666791967, "C1": 3.934500174808056, "R1": 0.300941310440645,
+        "A2": 0.1970098657318493, "B2": 0.7964040471376304, "D2": 0.03778548721987952,
+        "C2": 0.2074142699899348, "R2": 0.17767290158667093, "delta": 1.899742550805159e-08,
+    }, 0.4669606961284858, 0.03984343284881196, 1, 11.833837977680504),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("case", UNDECIDED, ids=["damped a little", "at infinity", "at rest"])
+def test_what_is_undecided_at_one_end_is_right_at_the_other(case):
+    """Signs before and behind the zeros fit together, also where they are as rounding has them."""
+    name, values, lam, sigma, number, V1 = case
+    bicycle = Bicycle.preset(name).replaced(values)
+    found = intervals_of(exact_table(bicycle, lam, sigma))
+    assert REASONS[found.marginal[0]]
+    assert found.number == number
+    if number:
+        assert (KINDS[found.lower[0]], KINDS[found.upper[0]]) == ("weave", "unbounded")
+        assert abs(found.V1[0] - V1) <= 2 * EPS * V1
+
+
 def test_a_sample_of_random_machines_in_400_bits():
     """Half of them beside a change of structure; docs/trust.md has the counts of a run of many more."""
     counts, ratios = verify_speeds.run(120, seed=5)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.family import Family
-from bikestab.model import Floats
+from bikestab.model import ExactTable, Floats
 from bikestab.region import series
 from bikestab.region.skeleton import curve_functions, in_units, undamped
 from bikestab.speeds import KINDS, intervals_of
@@ -39,24 +39,26 @@ class Line(NamedTuple):
 
     def table(self, values: Floats) -> Floats:
         """The table (5, 4, line, …) at values (line, …) of the running parameter."""
-        return self.at(np.arange(len(self.fixed)).reshape(-1, *(1,) * (values.ndim - 1)), values)
+        return self.at(np.arange(len(self.fixed)).reshape(-1, *(1,) * (values.ndim - 1)), values).value
 
-    def at(self, line: NDArray[np.intp], values: Floats) -> Floats:
+    def at(self, line: NDArray[np.intp], values: Floats) -> ExactTable:
         """The table (5, 4, …) at values of the running parameter on the lines of these numbers."""
         fixed = self.fixed[line]
-        return self.family.table(*((values, fixed) if self.x is None else (fixed, values)))
+        return self.family.exact_table(*((values, fixed) if self.x is None else (fixed, values)))
 
 
 class Samples(NamedTuple):
     """Designs on lines, in the lines' order and ascending on each: which line, where, and what is stable.
 
     ``structure`` is a number that two designs share if they have the same kinds of stable intervals, 0 for
-    none. Where it differs between two neighbours on a line, they are next to each other to rounding.
+    none, and it is ``clear`` unless it is within rounding. Where it differs between two neighbours on a line,
+    they are next to each other to rounding, or neither is clear.
     """
 
     line: NDArray[np.intp]
     value: Floats
     structure: NDArray[np.int64]
+    clear: NDArray[np.bool_]
 
 
 def stable_ranges(
@@ -120,17 +122,20 @@ def sampled(line: Line, low: float, high: float, given: list[float]) -> Samples:
     where = np.concatenate([values.ravel(), beside.ravel(), np.repeat(given, lines)])
     parts = [each.repeat(values[0].size), row.repeat(beside.shape[1]), np.tile(each, len(given))]
     which = np.concatenate(parts)
-    inside = (where >= low) & (where <= high)
-    which, where = which[inside], where[inside]
-    found = _ordered(which, where, structure(line.at(which, where)))
+    order = np.lexsort((where, which))
+    which, where = which[order], where[order]
+    again = np.append(False, (which[1:] == which[:-1]) & (where[1:] == where[:-1]))
+    kept = (where >= low) & (where <= high) & ~again
+    found = _seen(line, which[kept], where[kept])
     return _enclosed(line, found, 4 * np.spacing(max(abs(low), abs(high))))
 
 
-def structure(table: Floats) -> NDArray[np.int64]:
-    """A number for the kinds of all stable intervals of each design (5, 4, *shape); 0 for none."""
-    found = intervals_of(table)
+def _seen(line: Line, which: NDArray[np.intp], where: Floats) -> Samples:
+    """Designs at values on the lines of these numbers, in this order."""
+    found = intervals_of(line.at(which, where))
     kinds = found.lower.astype(np.int64) * len(KINDS) + found.upper
-    return (kinds * len(KINDS) ** (2 * np.arange(kinds.shape[-1]))).sum(axis=-1)
+    structure = (kinds * len(KINDS) ** (2 * np.arange(kinds.shape[-1]))).sum(axis=-1)
+    return Samples(which, where, structure, found.marginal[..., 0] == 0)
 
 
 def _zeros(table: Floats, values: Floats, half: Floats) -> tuple[NDArray[np.intp], Floats]:
@@ -150,9 +155,10 @@ def _zeros(table: Floats, values: Floats, half: Floats) -> tuple[NDArray[np.intp
     return line, middle + half[piece] * x
 
 
-def _ordered(line: NDArray[np.intp], value: Floats, found: NDArray[np.int64]) -> Samples:
+def _together(one: Samples, other: Samples) -> Samples:
+    line, value, structure, clear = (np.concatenate(each) for each in zip(one, other, strict=True))
     order = np.lexsort((value, line))
-    return Samples(line[order], value[order], found[order])
+    return Samples(line[order], value[order], structure[order], clear[order])
 
 
 def _changes(samples: Samples) -> NDArray[np.intp]:
@@ -162,21 +168,20 @@ def _changes(samples: Samples) -> NDArray[np.intp]:
 
 
 def _enclosed(line: Line, samples: Samples, close: float) -> Samples:
-    """With further samples, until two neighbours with different structures are ``close``."""
+    """With further samples, until neighbours with different structures are ``close``, or neither is clear.
+
+    Where rounding decides over some length, what is found there changes from one sample to the next.
+    """
     parts = np.arange(1, _PARTS) / _PARTS
     while True:
         change = _changes(samples)
         a, b = samples.value[change], samples.value[change + 1]
-        wide = b - a > close
+        wide = (b - a > close) & (samples.clear[change] | samples.clear[change + 1])
         if not wide.any():
             return samples
         which = np.repeat(samples.line[change[wide]], _PARTS - 1)
         new = (a[wide, np.newaxis] + (b - a)[wide, np.newaxis] * parts).ravel()
-        samples = _ordered(
-            np.concatenate([samples.line, which]),
-            np.concatenate([samples.value, new]),
-            np.concatenate([samples.structure, structure(line.at(which, new))]),
-        )
+        samples = _together(samples, _seen(line, which, new))
 
 
 def _runs(samples: Samples, good: NDArray[np.bool_], lines: int) -> list[list[tuple[float, float]]]:

@@ -8,7 +8,7 @@ from typing import TypedDict
 import numpy as np
 
 from bikestab.family import Family
-from bikestab.model import Floats
+from bikestab.model import ExactTable, Floats
 from bikestab.region.lines import stable_ranges
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
@@ -57,10 +57,10 @@ def nearest_stable(family: Family, lam: float, sigma: float) -> Nearest:
     )
 
 
-def rounded(table: Callable[[float], Floats], end: float, way: int) -> str:
+def rounded(table: Callable[[float], Floats | ExactTable], end: float, way: int) -> str:
     """An end of a stable range rounded upwards (``way`` = 1) or downwards (−1) to few decimals.
 
-    To so many that what is written still has a stable speed, and can be typed in.
+    To so many that what is written still has a stable speed, and can be typed in. ``table`` is of its value.
     """
     for decimals in range(*_DECIMALS):
         scale = 10.0**decimals

@@ -127,12 +127,12 @@ def _advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
         if nearest[key] is None:
             trails.append(f"none {side}")
         else:
-            text = rounded(lambda value: family.table(lam, value), nearest[key], way)
+            text = rounded(lambda value: family.exact_table(lam, value), nearest[key], way)
             trails.append(f"σ = {text} {side} (trail {float(text) * bicycle.c:.4f} m)")
     angles = "none"
     if nearest["lam_min"] is not None:
         ends = [
-            rounded(lambda value: family.table(value, sigma), nearest[key], way)
+            rounded(lambda value: family.exact_table(value, sigma), nearest[key], way)
             for key, way in (("lam_min", 1), ("lam_max", -1))
         ]
         angles = "λ = {} ... {} rad".format(*ends)

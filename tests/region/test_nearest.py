@@ -6,9 +6,12 @@ import pytest
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import exact_table
+from bikestab.region import lines
+from bikestab.region.lines import Line, Samples
 from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, nearest_stable, rounded
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
+from tests.references.run_extremes import machine
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
 
@@ -115,6 +118,31 @@ def test_negative_trails():
     assert not stable(MEIJAARD, MEIJAARD.lam, np.linspace(-0.01, near["sigma_min"] - 1e-12, 5001)).any()
     assert near["sigma_max"] is None
     assert not stable(MEIJAARD, MEIJAARD.lam, np.linspace(SIGMA_RANGE[0], -0.01, 5001)).any()
+
+
+@pytest.mark.parametrize("seed", [7420, 7490])
+def test_rounding_of_the_table_makes_no_ranges(seed, monkeypatch):
+    """What it decides over the intervals of a table of doubles was narrowed down without end."""
+    values, lam, sigma = machine(np.random.default_rng([1981, seed]))
+    bicycle, looked = Bicycle.from_mapping(values), []
+
+    def counted(table):
+        looked.append(table.value[0, 0].size)
+        return intervals_of(table)
+
+    monkeypatch.setattr("bikestab.region.lines.intervals_of", counted)
+    near = nearest_stable(Family(bicycle), lam, sigma)
+    assert sum(looked) < 5000
+    for trail in (near["sigma_min"], near["sigma_max"]):
+        assert trail is None or stable(bicycle, lam, trail)
+
+
+def test_what_rounding_decides_is_not_narrowed_down():
+    """Two weave speeds that are one in a whole range: sharing it out finds as many changes as samples."""
+    found = Samples(np.zeros(3, int), np.array([0.0, 0.5, 1.0]), np.array([0, 1, 0]), np.zeros(3, bool))
+    assert lines._enclosed(Line(Family(MEIJAARD), [0.3], None), found, 1e-15) is found
+    half = found._replace(clear=np.array([True, False, False]))
+    assert len(lines._enclosed(Line(Family(MEIJAARD), [0.3], None), half, 1e-15).value) > 3
 
 
 def test_rounded_ends_are_stable():
