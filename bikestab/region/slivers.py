@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.region.columns import Ends, number_of
@@ -12,56 +11,63 @@ from bikestab.region.patches import Partition
 from bikestab.region.triangulation import Index
 
 _NEAR = 0.02  # of the box's speeds: so far from each other may the ends over two corners be
+_LITTLE = 1e-4  # of the box's speeds: so much of what is stable may be left out
 
 
 def borrowed(box: Box, plane: Partition, triangle: Index, small: float) -> int:
     """The structure of a triangle too narrow to be cut: of some corners, where the others have such ends too.
 
-    Of those that do, the one with most intervals. Where there is none, one whose ends are of no kind,
-    those that each corner has itself; and else the one without any. What is shorter than ``small`` is
-    one point of the plane.
+    Of those it is the one that leaves out least of what is stable over the corners; of several the one with
+    most intervals, and one whose ends are of no kind only where there is no other. What is shorter than
+    ``small`` is one point of the plane.
     """
     columns = plane.columns
     has = columns.has()[triangle]
     candidates = np.flatnonzero(has.any(axis=0))
     candidates = candidates[np.argsort(-number_of(columns.codes[candidates]), kind="stable")]
+    code, V, least = 0, np.zeros((2, 3, columns.V.shape[2])), np.inf
     for any_kind in (False, True):
         for structure in candidates.tolist():
-            lent = has[:, structure]
-            V = _lent(box, plane, triangle, structure, lent, small, any_kind=any_kind)
-            if not np.isfinite(V).all():
-                continue
-            code, new = columns.codes[[structure]], ~lent
-            if any_kind:
-                code, new = number_of(code), np.ones(3, bool)
-            ends = Ends(V[:, new], np.repeat(code, np.count_nonzero(new)))
-            columns.add(triangle[new], ends, plane.points[:, triangle[new]])
-            return int(columns.structure(code)[0])
-    return int(columns.structure(np.zeros(1, np.int64))[0])
+            ends = _lent(box, plane, triangle, structure, small, any_kind=any_kind)
+            number = int(number_of(columns.codes[structure]))
+            lost = sum(_left_out(plane, point, ends[:, i, :number]) for i, point in enumerate(triangle))
+            if lost < least - _LITTLE * (box.V[1] - box.V[0]):
+                code, V, least = number if any_kind else int(columns.codes[structure]), ends, lost
+    codes = np.full(3, code)
+    columns.add(triangle, Ends(V, codes), plane.points[:, triangle])
+    return int(columns.structure(codes[:1])[0])
+
+
+def _left_out(plane: Partition, point: int, V: Floats) -> float:
+    """How many m/s are stable over a point but in none of the intervals V (2, interval).
+
+    Infinite where V has NaN or is not in order.
+    """
+    if not (np.diff(V.T.ravel()) >= 0).all():
+        return np.inf
+    columns = plane.columns
+    known = columns.record[point]
+    own = columns.V[:, known[known >= 0].min()]
+    common = np.minimum(own[1], V[1, :, np.newaxis]) - np.maximum(own[0], V[0, :, np.newaxis])
+    return float(np.diff(own, axis=0).sum() - np.maximum(common, 0).sum())
 
 
 def _lent(
-    box: Box,
-    plane: Partition,
-    triangle: Index,
-    structure: int,
-    lent: NDArray[np.bool_],
-    small: float,
-    *,
-    any_kind: bool,
+    box: Box, plane: Partition, triangle: Index, structure: int, small: float, *, any_kind: bool
 ) -> Floats:
     """The ends (2, corner, interval) of a structure that some corners have; NaN where no others are such."""
     columns = plane.columns
     V = np.empty((2, 3, columns.V.shape[2]))
-    lenders = np.flatnonzero(lent)
-    for corner in range(3):
+    lent = columns.has()[triangle, structure]
+    lenders, near = triangle[lent], _NEAR * (box.V[1] - box.V[0])
+    for corner, point in enumerate(triangle.tolist()):
         if lent[corner]:
-            V[:, corner] = columns.V[:, columns.record[triangle[corner], structure]]
+            V[:, corner] = columns.V[:, columns.record[point, structure]]
             continue
-        away = plane.length(np.column_stack([triangle[lenders], np.full(len(lenders), triangle[corner])]))
-        record = int(columns.record[triangle[lenders[np.argmin(away)]], structure])
-        near, beside = _NEAR * (box.V[1] - box.V[0]), bool(away.min() < small)
-        V[:, corner] = columns.alike(
-            int(triangle[corner]), record, structure, near, beside=beside, any_kind=any_kind
-        )
+        away = plane.length(np.column_stack([lenders, np.full(len(lenders), point)]))
+        for i in np.argsort(away, kind="stable"):  # ends may change much between a corner and the nearest
+            record, beside = int(columns.record[lenders[i], structure]), bool(away[i] < small)
+            V[:, corner] = columns.alike(point, record, structure, near, beside=beside, any_kind=any_kind)
+            if np.isfinite(V[:, corner]).all():
+                break
     return V

@@ -232,6 +232,18 @@ def test_surfaces_meet_at_a_face(number):
     assert away_from_surface(family, ends, mesh) < 1e-9
 
 
+def test_an_interval_that_closes_at_two_corners_of_a_sliver():
+    """Three structures meet in it, and over its third corner the interval is a metre per second wide.
+
+    The triangle was then taken for one without intervals, and walls went through the stable region.
+    """
+    family, ends = next(islice(pairs(320, seed=1), 78, None))
+    mesh = region_mesh(family, *ends, cells=20)
+    assert len(mesh.triangles) > 1000
+    assert open_edges(mesh, ends) == 0
+    assert away_from_surface(family, ends, mesh) < 1e-9
+
+
 def test_more_cells_make_a_finer_mesh():
     sizes = [len(region_mesh(*family_case("2007"), cells=n).triangles) for n in (20, 40)]
     assert 3 < sizes[1] / sizes[0] < 5
