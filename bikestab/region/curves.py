@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
-from contourpy import contour_generator
 from numpy.typing import NDArray
 
 from bikestab.family import Family
 from bikestab.model import Floats
+from bikestab.region.contours import contours, refined
 from bikestab.region.events import Box
-from bikestab.region.onto import Function, between
 from bikestab.region.pieces import NAMES, Curve, met, rejoined
+from bikestab.region.skeleton import CurveName
 from bikestab.region.stretches import stretches
 from bikestab.routh import conditions
 
@@ -39,18 +37,32 @@ def trace(
     """
     box = Box(family, np.array([x, y], dtype=float), V)
     nodes = np.linspace(0, 1, samples)
-    functions = box.values(np.array(np.meshgrid(nodes, nodes, indexing="ij")))
-    found: list[Curve] = []
-    for key, values in functions.items():
+    keys, scales, found = [], [], []
+    for key, values in box.values(np.array(np.meshgrid(nodes, nodes, indexing="ij"))).items():
         scale = np.abs(values).max()
-        if scale > 0:
-            lines = contour_generator(nodes, nodes, (values / scale).T).lines(0.0)
-            pieces: list[Curve] = []
-            for line in _refined(partial(box.value, key), lines, nodes):
-                for stretch in _without_jumps(np.abs(box.value(key, line)) <= _ZERO * scale, line):
-                    pieces.extend(stretches(box, key, stretch, float(nodes[1])))
-            found.extend(rejoined(pieces))
-    return met(found, box.ends[:, 1] - box.ends[:, 0])
+        lines = contours((nodes, nodes), values / scale) if scale > 0 else []
+        keys += [key] * len(lines)
+        scales += [scale] * len(lines)
+        found += lines
+    lines = refined(partial(box.value_of_each, keys), found, (nodes, nodes))
+    pieces: dict[CurveName, list[Curve]] = {}
+    for key, line, zero in zip(keys, lines, _zeros(box, keys, scales, lines), strict=True):
+        for stretch in _without_jumps(zero, line):
+            pieces.setdefault(key, []).extend(stretches(box, key, stretch, float(nodes[1])))
+    curves = [curve for some in pieces.values() for curve in rejoined(some)]
+    return met(curves, box.ends[:, 1] - box.ends[:, 0])
+
+
+def _zeros(
+    box: Box, keys: list[CurveName], scales: list[float], lines: list[Floats]
+) -> list[NDArray[np.bool_]]:
+    """Where on lines (2, n) the functions of their curves are zero, relative to ``scales``."""
+    if not lines:
+        return []
+    which = np.repeat(np.arange(len(lines)), [line.shape[1] for line in lines])
+    values = box.value_of_each(keys, np.concatenate(lines, axis=1), which)
+    zero = np.abs(values) <= _ZERO * np.array(scales)[which]
+    return np.split(zero, np.flatnonzero(np.diff(which)) + 1)
 
 
 def leaving(box: Box, *, samples: int) -> list[Floats]:
@@ -59,38 +71,26 @@ def leaving(box: Box, *, samples: int) -> list[Floats]:
     Where they come to V = 0 there are curves of the skeleton instead. Lines are found as in ``trace``.
     """
     nodes = np.linspace(0, 1, samples)
-    grid = np.array(np.meshgrid(nodes, nodes, indexing="ij"))
-    table = box.family.quick_table(*box.real(grid))
-    found = []
+    table = box.family.quick_table(*box.real(np.array(np.meshgrid(nodes, nodes, indexing="ij"))))
+    speeds, names, found = [], [], []
     for V in box.V:
         for name in ("hurwitz3", "p0") if 0 < V < np.inf else ():
+            lines = contours((nodes, nodes), getattr(conditions(table, V), name))
+            speeds += [V] * len(lines)
+            names += [name] * len(lines)
+            found += lines
+    weave = np.array(names) == "hurwitz3"
 
-            def value(points: Floats, name: str = name, V: float = V) -> Floats:
-                return getattr(conditions(box.table(points), V), name)
+    def value(points: Floats, which: NDArray[np.intp]) -> Floats:
+        p = conditions(box.table(points), np.array(speeds)[which])
+        return np.where(weave[which], p.hurwitz3, p.p0)
 
-            lines = contour_generator(nodes, nodes, getattr(conditions(table, V), name).T).lines(0.0)
-            for line in _refined(value, lines, nodes):
-                p = conditions(box.table(line), V)
-                others = [values for other, values in p._asdict().items() if other != name]
-                found.append(line[:, np.min(others, axis=0) > 0])
-    return found
-
-
-def _refined(value: Function, found: Sequence[Any], nodes: Floats) -> list[Floats]:
-    """Contour vertices (n, 2), each on a line of the grid, moved along it onto the zero: lines (2, n)."""
-    if not found:
-        return []
-    lines = [np.asarray(line).T for line in found]
-    points = np.concatenate(lines, axis=1)
-    index = points * (len(nodes) - 1)
-    on_node = np.abs(index - np.rint(index)) < 1e-9
-    low = nodes[np.where(on_node, np.rint(index), np.floor(index)).astype(int)]
-    high = nodes[np.where(on_node, np.rint(index), np.floor(index) + 1).astype(int)]
-    changes = (np.sign(value(low)) * np.sign(value(high)) < 0) & ~on_node.all(axis=0)
-    moved = np.where(on_node, low, points)
-    moved[:, changes] = between(value, low[:, changes], high[:, changes])
-    new = np.split(moved, np.cumsum([line.shape[1] for line in lines])[:-1], axis=1)
-    return [line[:, np.append(True, np.abs(np.diff(line, axis=1)).sum(axis=0) > 0)] for line in new]
+    lines = []
+    for line, V, name in zip(refined(value, found, (nodes, nodes)), speeds, names, strict=True):
+        p = conditions(box.table(line), V)
+        others = [values for other, values in p._asdict().items() if other != name]
+        lines.append(line[:, np.min(others, axis=0) > 0])
+    return lines
 
 
 def _without_jumps(zero: NDArray[np.bool_], line: Floats) -> list[Floats]:

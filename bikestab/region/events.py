@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.polynomials import derivative, value
-from bikestab.region.sides import sides
+from bikestab.region.sides import side_of_each, sides
 from bikestab.region.skeleton import CurveName, in_units, speed_polynomials, units
 from bikestab.roots import positive_roots
 from bikestab.routh import conditions
@@ -51,6 +51,10 @@ class Box:
     ) -> dict[CurveName, Floats]:
         """The functions of curves, whose scale is the same at all points of the box."""
         return sides(in_units(self.table(points), self.units), names)
+
+    def value_of_each(self, keys: Sequence[CurveName], points: Floats, which: NDArray[np.intp]) -> Floats:
+        """At points (2, n) the functions of the curves keys[which], all of one table."""
+        return side_of_each(in_units(self.table(points), self.units), keys, which)
 
 
 class Event(NamedTuple):

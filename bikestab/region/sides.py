@@ -10,29 +10,45 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.polynomials import derivative, product, total, value
-from bikestab.region.skeleton import CurveName, curve_functions, speed_polynomials
+from bikestab.region.skeleton import CurveName, SpeedPolynomials, curve_functions, speed_polynomials
 from bikestab.roots import positive_roots
 
 
 def sides(table: Floats, names: Sequence[CurveName]) -> dict[CurveName, Floats]:
     """The functions of ``curve_functions``, (*shape), which may also jump where a root leaves V > 0."""
+    return _sides(table, names, speed_polynomials(table))
+
+
+def side_of_each(table: Floats, names: Sequence[CurveName], which: NDArray[np.intp]) -> Floats:
+    """At each of some designs (5, 4, n) the function of its own curve, names[which] (n,)."""
     polynomials, power = speed_polynomials(table)
+    values = np.empty(len(which))
+    for name in dict.fromkeys(names):
+        some = np.flatnonzero(np.array([each == name for each in names])[which])
+        if len(some):
+            own = SpeedPolynomials({key: poly[:, some] for key, poly in polynomials.items()}, power)
+            values[some] = _sides(table[..., some], [name], own)[name]
+    return values
+
+
+def _sides(table: Floats, names: Sequence[CurveName], found: SpeedPolynomials) -> dict[CurveName, Floats]:
+    polynomials, power = found
     if power == 2:
-        return curve_functions(table, names)
+        return curve_functions(table, names, polynomials)
     p0, p1, p2, p3, p4 = table
-    q = total(product(p2, p3), -product(p4, p1))
     weave = polynomials["hurwitz3"]
     damped: dict[CurveName, Callable[[], Floats]] = {
         "fold": lambda: _folded(weave),
         "crossing": lambda: _crossed(p1, p3),
-        "meet": lambda: _at_capsize(q, p0),
+        "meet": lambda: _at_capsize(total(product(p2, p3), -product(p4, p1)), p0),
         "slow meet": lambda: _at_capsize(p1, p0),
     }
     plain = [name for name in names if name not in damped]
-    values = curve_functions(table, plain) if plain else {}
+    values = curve_functions(table, plain, polynomials) if plain else {}
     return {name: damped[name]() if name in damped else values[name] for name in names}
 
 

@@ -47,9 +47,13 @@ def speed_polynomials(table: Floats) -> SpeedPolynomials:
 
 
 def curve_functions(
-    table: Floats, names: Sequence[CurveName] = get_args(CurveName)
+    table: Floats,
+    names: Sequence[CurveName] = get_args(CurveName),
+    polynomials: dict[str, Floats] | None = None,
 ) -> dict[CurveName, Floats]:
     """Functions of shape (*shape) whose zeros are the curves, for a table (5, 4, *shape).
+
+    ``polynomials`` are those of ``speed_polynomials``, where they are known.
 
     - fold: hurwitz3 has a double root in V; its discriminant;
     - crossing: p1 and p3 have a common root, where the weave surface crosses itself, a fold as well;
@@ -58,7 +62,7 @@ def curve_functions(
     - … at infinity, at rest: the highest or lowest coefficient of p0 or hurwitz3;
     - singular inertia: p4 = 0, where an eigenvalue is infinite.
     """
-    polynomials, _ = speed_polynomials(table)
+    polynomials = polynomials or speed_polynomials(table).polynomials
     p0, p1, p3, weave, q = (polynomials[name] for name in ("p0", "p1", "p3", "hurwitz3", "q"))
     functions: dict[CurveName, Callable[[], Floats]] = {
         "fold": lambda: _discriminant(weave),
