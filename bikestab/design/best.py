@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -10,7 +11,9 @@ import numpy as np
 
 from bikestab.design.criteria import (
     WORSE,
+    Criterion,
     Wanted,
+    assessed,
     decay,
     lowest,
     miss,
@@ -19,8 +22,8 @@ from bikestab.design.criteria import (
     width_and_decay,
     width_if_decaying,
 )
-from bikestab.design.optimum import Criterion, JudgedDesign, finite, judged_design, own_design, place_of
-from bikestab.design.search import Found, axes, basins, minimise, minimise_all
+from bikestab.design.optimum import JudgedDesign, finite, judged_design, own_design, place_of
+from bikestab.design.search import Found, axes, basins, minimise
 from bikestab.model import Floats
 
 GRID = 161  # values per axis to start from: a region narrower than a step of theirs may be missed
@@ -49,16 +52,17 @@ def best_designs(wanted: Wanted, *, grid: int | None = None) -> Best:
     """Search the box, starting from grid × grid designs; the same question has the same answer."""
     search = _Search(wanted, grid or GRID)
     own = own_design(wanted)
-    nearest = search.best(miss) if search.on_grid(width).min() >= 0 else None
-    if nearest and nearest.value > 0:
-        V, rate = missed_by(wanted, wanted.table(nearest.x[:, np.newaxis]), rounds=7)
-        closest = judged_design(replace(wanted, stable=None), nearest.x)
-        closest |= {"V": float(V[0]), "growth_rate": finite(rate[0])}
-        return Best(own, None, None, None, [], closest)
-    if nearest:  # a region that the grid missed
-        search.known.append(nearest.x)
-    widest, low, fast = (search.best(criterion) for criterion in (width, lowest, decay))
-    as_widest = float(decay(wanted, widest.x[:, np.newaxis])[0])
+    search.look([width, lowest, decay])
+    if search.values[width].min() >= 0:
+        (nearest,) = search.best([miss])
+        if nearest.value > WORSE:
+            V, rate = missed_by(wanted, wanted.table(nearest.x[:, np.newaxis]), rounds=7)
+            closest = judged_design(replace(wanted, stable=None), nearest.x)
+            closest |= {"V": float(V[0]), "growth_rate": finite(rate[0])}
+            return Best(own, None, None, None, [], closest)
+        search.known.append(nearest.x)  # a region that the grid missed
+    widest, low, fast = search.best([width, lowest, decay])
+    as_widest = float(assessed(wanted, [decay], widest.x[:, np.newaxis])[0, 0])
     if as_widest < fast.value:  # both searches end at the same optimum, save for their last steps
         fast = Found(widest.x, as_widest)
     return Best(
@@ -87,16 +91,18 @@ class _Search:
         self.values: dict[Criterion, Floats] = {}
         self.known: list[Floats] = []  # further points to start from
 
-    def on_grid(self, criterion: Criterion) -> Floats:
-        """What the criterion gives for each design of the grid."""
-        if criterion not in self.values:
-            self.values[criterion] = criterion(self.wanted, self.x)
-        return self.values[criterion]
+    def look(self, criteria: Sequence[Criterion]) -> None:
+        """Note what criteria give for each design of the grid."""
+        missing = [criterion for criterion in criteria if criterion not in self.values]
+        if missing:
+            self.values.update(zip(missing, assessed(self.wanted, missing, self.x), strict=True))
 
-    def best(self, criterion: Criterion) -> Found:
-        starts = self.starts(self.on_grid(criterion))
-        end = minimise(partial(criterion, self.wanted), self.low, self.high, starts, self.step)
-        return Found(self.wanted.within(end.x), end.value)
+    def best(self, criteria: Sequence[Criterion]) -> list[Found]:
+        """The best design by each criterion."""
+        self.look(criteria)
+        starts = [self.starts(self.values[criterion]) for criterion in criteria]
+        ends = minimise(partial(assessed, self.wanted, criteria), self.low, self.high, starts, self.step)
+        return [Found(self.wanted.within(end.x), end.value) for end in ends]
 
     def starts(self, on_grid: Floats) -> Floats:
         """Points (S, 2) of the grid at its lowest local minima, behind those known otherwise."""
@@ -108,19 +114,19 @@ def _front(search: _Search, widest: Found, fastest: Found) -> list[Found]:
     """Designs of which none is both wider and decays faster than another, the widest first."""
     if fastest.value >= 0:
         return []
-    wanted, wide, growth = search.wanted, -search.on_grid(width), search.on_grid(decay)
+    wanted, wide, growth = search.wanted, -search.values[width], search.values[decay]
     top = widest.x
-    if decay(wanted, top[:, np.newaxis])[0] >= 0:  # the widest is unstable at a judged speed
+    if assessed(wanted, [decay], top[:, np.newaxis])[0, 0] >= 0:  # the widest is unstable at a judged speed
         on_grid = np.where((wide > 0) & (growth < 0), -wide, WORSE + np.maximum(growth, 0))
         starts = np.array([fastest.x, *search.starts(on_grid)])
-        cost = partial(width_if_decaying, wanted)
-        top = wanted.within(minimise(cost, search.low, search.high, starts, search.step).x)
+        cost = partial(assessed, wanted, [width_if_decaying])
+        (found,) = minimise(cost, search.low, search.high, [starts], search.step)
+        top = wanted.within(found.x)
     (most, least), (slow, fast) = width_and_decay(wanted, np.stack([top, fastest.x], axis=-1))
     part = np.arange(1, FRONT + 1)[:, np.newaxis] / (FRONT + 1)
     widths, rates = most + part * (least - most), slow + part * (fast - slow)
 
-    def costs(measures: Floats) -> Floats:  # for each width the fastest decay, for each decay the widest
-        wide, growth = measures
+    def costs(wide: Floats, growth: Floats) -> Floats:  # of each width, of each decay
         return np.concatenate(
             [
                 np.where(wide[:FRONT] >= widths, growth[:FRONT], WORSE + widths - wide[:FRONT]),
@@ -128,12 +134,14 @@ def _front(search: _Search, widest: Found, fastest: Found) -> list[Found]:
             ]
         )
 
-    on_grid = costs(np.broadcast_to(np.stack([wide, growth])[:, np.newaxis], (2, 2 * FRONT, len(wide))))
+    def evaluated(points: Floats) -> Floats:
+        measures = width_and_decay(wanted, points.reshape(2, -1))
+        return costs(*measures.reshape(2, *points.shape[1:]))
+
+    on_grid = costs(*np.broadcast_to(np.stack([wide, growth])[:, np.newaxis], (2, 2 * FRONT, len(wide))))
     points = [np.array([top, fastest.x, *search.starts(values)]) for values in on_grid]
-    between = minimise_all(
-        partial(width_and_decay, wanted), costs, search.low, search.high, points, search.step
-    )
-    x = wanted.within(np.stack([top, *between, fastest.x], axis=-1))
+    between = minimise(evaluated, search.low, search.high, points, search.step)
+    x = wanted.within(np.stack([top, *(found.x for found in between), fastest.x], axis=-1))
     wide, growth = width_and_decay(wanted, x)
     better = (wide >= wide[:, np.newaxis]) & (growth <= growth[:, np.newaxis])
     better &= (wide > wide[:, np.newaxis]) | (growth < growth[:, np.newaxis])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,13 @@ class Counted(NamedTuple):
     counts: NDArray[np.bool_]
     width: Floats
 
+    def some(self, part: slice) -> Counted:
+        """Those of some designs."""
+        if part == slice(None):
+            return self
+        intervals = Intervals(*(values[part] for values in self.intervals.arrays().values()))
+        return Counted(intervals, self.counts[part], self.width[part])
+
     @property
     def any(self) -> NDArray[np.bool_]:
         """Which designs have one that counts."""
@@ -40,27 +48,58 @@ def counted(wanted: Asked, table: Floats) -> Counted:
     return Counted(found, counts, np.where(counts, np.minimum(found.V2, wanted.V_max) - found.V1, 0))
 
 
-def width(wanted: Asked, x: Floats) -> Floats:
-    """Minus the widest interval [m/s] of designs x (2, S); smaller is better in each criterion."""
-    table = wanted.table(wanted.within(x))
-    widest = counted(wanted, table).width.max(axis=-1)
-    return _or_miss(wanted, table, widest > 0, -widest)
+class Merit(NamedTuple):
+    """What one criterion says of designs (S,), smaller is better, and which designs it allows."""
+
+    value: Floats
+    allowed: NDArray[np.bool_]
 
 
-def lowest(wanted: Asked, x: Floats) -> Floats:
+def width(wanted: Asked, table: Floats, found: Counted) -> Merit:
+    """Minus the widest interval [m/s]."""
+    widest = found.width.max(axis=-1)
+    return Merit(-widest, widest > 0)
+
+
+def lowest(wanted: Asked, table: Floats, found: Counted) -> Merit:
     """The lowest stable speed V1 [m/s]."""
-    table = wanted.table(wanted.within(x))
-    found = counted(wanted, table)
     V1 = np.where(found.counts, found.intervals.V1, np.inf).min(axis=-1)
-    return _or_miss(wanted, table, np.isfinite(V1), V1)
+    return Merit(V1, np.isfinite(V1))
 
 
-def decay(wanted: Asked, x: Floats) -> Floats:
+def decay(wanted: Asked, table: Floats, found: Counted) -> Merit:
     """The growth rate [s⁻¹] as judged. Unstable designs are allowed unless stable speeds are asked for."""
-    table = wanted.table(wanted.within(x))
+    return Merit(judged(wanted, table, found)[1], np.logical_or(found.any, wanted.stable is None))
+
+
+def width_if_decaying(wanted: Asked, table: Floats, found: Counted) -> Merit:
+    """As ``width``, of designs that are stable at the judged speeds."""
+    widest, growth = found.width.max(axis=-1), judged(wanted, table, found)[1]
+    return Merit(-widest, (widest > 0) & (growth < 0))
+
+
+Criterion = Callable[[Asked, Floats, Counted], Merit]
+
+
+def assessed(wanted: Asked, criteria: Sequence[Criterion], x: Floats) -> Floats:
+    """What each criterion gives for designs of its own, x (n, criterion, S), or for the same, x (n, S).
+
+    Returns (criterion, S): the values of allowed designs; for others WORSE and how far they are from allowed.
+    """
+    own = x.ndim == 3
+    table = wanted.table(wanted.within(x.reshape(len(x), -1)))
     found = counted(wanted, table)
-    allowed = np.logical_or(found.any, wanted.stable is None)
-    return _or_miss(wanted, table, allowed, judged(wanted, table, found)[1])
+    n = x.shape[-1]
+    parts = [slice(i * n, (i + 1) * n) if own else slice(None) for i in range(len(criteria))]
+    merits = [c(wanted, table[..., part], found.some(part)) for c, part in zip(criteria, parts, strict=True)]
+    values, allowed = (np.array(each) for each in zip(*merits, strict=True))
+    values = np.minimum(values, WORSE / 2)
+    poor = np.asarray(~(allowed.ravel() if own else np.logical_and.reduce(allowed, axis=0)))
+    if poor.any():
+        away = np.zeros(len(poor))
+        away[poor] = np.clip(missed_by(wanted, table[..., poor])[1], 1e-9, WORSE / 2)
+        values = np.where(allowed, values, WORSE + (away.reshape(values.shape) if own else away))
+    return values
 
 
 def width_and_decay(wanted: Asked, x: Floats) -> Floats:
@@ -71,17 +110,9 @@ def width_and_decay(wanted: Asked, x: Floats) -> Floats:
     return np.stack([found.width.max(axis=-1), np.minimum(growth, WORSE / 2)])
 
 
-def width_if_decaying(wanted: Asked, x: Floats) -> Floats:
-    """As ``width``, of designs that are stable at the judged speeds."""
-    widest, growth = width_and_decay(wanted, x)
-    return np.where((widest > 0) & (growth < 0), -widest, WORSE + np.maximum(growth, 0))
-
-
-def miss(wanted: Asked, x: Floats) -> Floats:
-    """How far [s⁻¹] designs are from being allowed, 0 where they are."""
-    table = wanted.table(wanted.within(x))
-    allowed = counted(wanted, table).any
-    return np.maximum(_or_miss(wanted, table, allowed, np.zeros(len(allowed))) - WORSE, 0)
+def miss(wanted: Asked, table: Floats, found: Counted) -> Merit:
+    """Nothing but which designs are allowed."""
+    return Merit(np.zeros(table.shape[-1]), found.any)
 
 
 def judged(
@@ -133,12 +164,3 @@ def missed_by(wanted: Asked, table: Floats, *, rounds: int = _COARSE) -> tuple[F
     n = table.shape[-1]
     low, high = wanted.stable or (0.0, wanted.V_max)
     return extreme(table, np.full(n, low), np.full(n, high), worst=wanted.stable is not None, rounds=rounds)
-
-
-def _or_miss(wanted: Asked, table: Floats, allowed: NDArray[np.bool_], values: Floats) -> Floats:
-    """The values of allowed designs; for others WORSE and how far they are from allowed."""
-    result = np.minimum(values, WORSE / 2)
-    if not allowed.all():
-        rate = missed_by(wanted, table[..., ~allowed])[1]
-        result[~allowed] = WORSE + np.clip(rate, 1e-9, WORSE / 2)
-    return result

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import Any, NamedTuple, TypedDict
+from functools import cached_property
+from typing import NamedTuple, TypedDict
 
 import numpy as np
 from scipy.optimize import differential_evolution
@@ -13,7 +13,7 @@ from scipy.stats import qmc
 
 from bikestab.bicycle import Bicycle
 from bikestab.design.ball import Ball, Robust, most_robust
-from bikestab.design.criteria import WORSE, counted, decay, judged, lowest, width
+from bikestab.design.criteria import WORSE, Criterion, assessed, counted, decay, judged, lowest, width
 from bikestab.design.optimum import finite
 from bikestab.errors import InputError
 from bikestab.limits import check_speed
@@ -152,7 +152,7 @@ def best_free(free: Free, deviations: Mapping[str, float] | None = None) -> Free
     return FreeBest(own, widest, low, fast, robust)
 
 
-def best_of(free: Free, criterion: Any) -> tuple[Floats, float]:
+def best_of(free: Free, criterion: Criterion) -> tuple[Floats, float]:
     """The design (n,) with the smallest value of a criterion, and that value; the same each time.
 
     Differential evolution from the best of evenly spread designs, then random steps that shrink: optima
@@ -160,8 +160,11 @@ def best_of(free: Free, criterion: Any) -> tuple[Floats, float]:
     """
     low, high = free.box
     random = np.random.default_rng(_SEED)
-    start = free.first[:, np.argsort(criterion(free, free.first), kind="stable")[:_POPULATION]].T
-    cost = partial(criterion, free)
+
+    def cost(x: Floats) -> Floats:
+        return assessed(free, [criterion], x)[0]
+
+    start = free.first[:, np.argsort(cost(free.first), kind="stable")[:_POPULATION]].T
     beyond = 0.05 * (high - low)
     end = differential_evolution(
         cost, list(zip(low - beyond, high + beyond, strict=True)), init=start, vectorized=True,

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, Literal, NotRequired
 
 import numpy as np
 
-from bikestab.design.criteria import WORSE, Wanted, counted, judged
+from bikestab.design.criteria import WORSE, Criterion, Wanted, assessed, counted, judged
 from bikestab.design.search import Found
 from bikestab.family import Family
 from bikestab.model import Floats
@@ -22,7 +21,6 @@ _JUMP = 1e-3  # share of its value by which an optimum at a jump is better than 
 _TOUCH = 1e-3  # m/s
 _SAME_OFFSET = 1e-7  # m
 
-Criterion = Callable[[Wanted, Floats], Floats]
 Pick = Literal["widest", "lowest", "judged"]
 
 
@@ -118,7 +116,7 @@ def _beside(wanted: Wanted, criterion: Criterion, x: Floats, radii: Floats) -> f
     """The worst value on an ellipse around a design."""
     angle = 2 * np.pi * np.arange(16) / 16
     points = x[:, np.newaxis] + radii[:, np.newaxis] * np.array([np.cos(angle), np.sin(angle)])
-    return float(criterion(wanted, points).max())  # which moves them into the limits
+    return float(assessed(wanted, [criterion], points).max())  # which moves them into the limits
 
 
 def _rim(wanted: Wanted, x: Floats) -> str:

@@ -6,20 +6,20 @@ An optimum often lies at the rectangle's rim: steps beyond it end on it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import differential_evolution
 
 from bikestab.model import Floats
 
-Cost = Callable[[Floats], Floats]  # points (2, S) → values (S,), all finite
+Costs = Callable[[Floats], Floats]
 _SEED = 1981  # the year of the paper; every search is the same each time
-ROUNDS, ROUNDS_TOGETHER = 100, 60  # most generations of one search, and of many at once
+ROUNDS, ROUNDS_TOGETHER = 100, 60  # most generations of a few searches, and of many
+_ALIKE = 1e-10  # in value, as a standard deviation: so close the population has settled
 _POPULATION = 30
-_SMALLER = 20  # of each of many problems at once
+_MANY, _SMALLER = 6, 20  # from so many problems at once each has a smaller one
 _CLOSE = 0.3  # this share of the points around the best ones starts ten times closer to them
 
 
@@ -51,53 +51,41 @@ def basins(values: Floats, most: int) -> tuple[NDArray[np.intp], NDArray[np.intp
     return i, j
 
 
-def minimise(cost: Cost, low: Floats, high: Floats, starts: Floats, spread: Floats) -> Found:
-    """The best point of the rectangle low … high found from the points ``starts`` (S, 2).
+def minimise(
+    costs: Costs, low: Floats, high: Floats, starts: Sequence[Floats], spread: Floats
+) -> list[Found]:
+    """The best points of the rectangle low … high, that of problem k from points ``starts[k]`` (S, 2).
 
-    The rest of the first population lies as far as ``spread`` around them, such as a grid's step. The
-    result is never worse than the best of the first 15 starts, and the same each time.
+    ``costs`` takes points (2, K, P), P of each of K problems, and gives finite values (K, P): all problems
+    advance together, so that a round is one evaluation. The rest of the first population lies as far as
+    ``spread`` around the starts, such as a grid's step. A result is never worse than the best of the first
+    starts, half of the population, and the same each time.
     """
     random = np.random.default_rng(_SEED)
-    beyond = 0.1 * (high - low)
-    end = differential_evolution(
-        lambda x: cost(np.clip(x, low[:, np.newaxis], high[:, np.newaxis])),
-        list(zip(low - beyond, high + beyond, strict=True)),
-        init=_population(starts, spread, low, high, random), vectorized=True, updating="deferred",
-        polish=False, rng=random, maxiter=ROUNDS, tol=0, atol=1e-10, mutation=(0.4, 0.9), recombination=1.0,
-    )  # fmt: skip
-    return Found(np.clip(end.x, low, high), float(end.fun))
-
-
-def minimise_all(
-    measure: Callable[[Floats], Floats],
-    costs: Callable[[Floats], Floats],
-    low: Floats,
-    high: Floats,
-    starts: list[Floats],
-    spread: Floats,
-) -> Floats:
-    """The best points (K, 2) of K problems that measure the same of a point, as in ``minimise``.
-
-    ``measure`` takes points (2, S) and gives (M, S); ``costs`` takes measures (M, K, P) and gives (K, P).
-    ``starts`` are K arrays (S, 2). All problems advance together, so that a round is one evaluation.
-    """
-    random = np.random.default_rng(_SEED)
-    x = np.array([_population(points, spread, low, high, random, _SMALLER) for points in starts])
+    many = len(starts) >= _MANY
+    size = _SMALLER if many else _POPULATION
+    x = np.array([_population(points, spread, low, high, random, size) for points in starts])
     K, P, _ = x.shape
+    beyond = 0.1 * (high - low)
 
     def evaluated(points: Floats) -> Floats:
-        return costs(measure(points.reshape(-1, 2).T).reshape(-1, K, P))
+        return costs(np.moveaxis(np.clip(points, low, high), -1, 0))
 
     values, row = evaluated(x), np.arange(K)[:, np.newaxis]
-    for _ in range(ROUNDS_TOGETHER):
+    for _ in range(ROUNDS_TOGETHER if many else ROUNDS):
         best = x[row, np.argmin(values, axis=1)[:, np.newaxis]]
-        a, b = random.integers(P, size=(2, K, P))
-        step, pull = random.uniform(0.3, 0.9, (2, K, P, 1))
-        trial = np.clip(x + pull * (best - x) + step * (x[row, a] - x[row, b]), low, high)
+        a, b = np.argsort(random.random((K, P, P - 1)), axis=-1)[..., :2].transpose(2, 0, 1)
+        a, b = ((np.arange(P) + 1 + each) % P for each in (a, b))  # of two others
+        trial = best + random.uniform(0.4, 0.9, (K, 1, 1)) * (x[row, a] - x[row, b])
+        new = random.uniform(low - beyond, high + beyond, x.shape)
+        trial = np.where((trial < low - beyond) | (trial > high + beyond), new, trial)
         found = evaluated(trial)
         better = found <= values
         x[better], values[better] = trial[better], found[better]
-    return x[np.arange(K), np.argmin(values, axis=1)]
+        if (values.std(axis=1) <= _ALIKE).all():
+            break
+    least = np.argmin(values, axis=1)
+    return [Found(np.clip(x[k, i], low, high), float(values[k, i])) for k, i in enumerate(least)]
 
 
 def _population(
@@ -106,7 +94,7 @@ def _population(
     low: Floats,
     high: Floats,
     random: np.random.Generator,
-    size: int = _POPULATION,
+    size: int,
 ) -> Floats:
     first = starts[: size // 2]
     more = first[np.arange(size - len(first)) % len(first)]
