@@ -10,7 +10,7 @@ from bikestab import __version__
 from bikestab.bicycle import Bicycle
 from bikestab.paper1981 import claims
 from bikestab.paper1981.any_machine import judge_trends
-from bikestab.paper1981.box import FULL, LAM, SIGMA, Range, Sampling, V
+from bikestab.paper1981.box import LAM, SIGMA, Range, Sampling, V
 from bikestab.paper1981.claims import Verdict
 from bikestab.paper1981.damping import Damping, damping
 from bikestab.paper1981.finite_interval import DesignIntervals, FiniteInterval, finite_interval
@@ -109,8 +109,27 @@ class Study:
     motorcycle: Motorcycle
 
 
-def study(bicycle: Bicycle, sampling: Sampling = FULL, progress: Progress = lambda words: None) -> Study:
-    """Compute and judge everything; ``progress`` is told what comes next."""
+@dataclass(frozen=True)
+class Undamped:
+    """The half of the numbers for which conclusions 1, 2 and 3 are drawn, and the refinement's."""
+
+    refined: Refinement
+    finite: FiniteInterval
+    wide: Widening
+    best: Margin
+
+
+@dataclass(frozen=True)
+class Others:
+    """The other half: damping, other readings and a motorcycle."""
+
+    damped: Damping
+    doubtful: Readings
+    motorcycle: Motorcycle
+
+
+def undamped(bicycle: Bicycle, sampling: Sampling, progress: Progress) -> Undamped:
+    """What needs nothing of ``others``."""
     progress("map of the stable speeds")
     designs = map_designs(bicycle, sampling.grid)
     progress("the refinement")
@@ -119,13 +138,21 @@ def study(bicycle: Bicycle, sampling: Sampling = FULL, progress: Progress = lamb
     finite = finite_interval(bicycle, designs, sampling)
     wide = widening(bicycle, designs, 5 * sampling.picture)
     progress("conclusion 3")
-    best = margin(bicycle, sampling.search, sampling.points)
+    return Undamped(refined, finite, wide, margin(bicycle, sampling.search, sampling.points))
+
+
+def others(bicycle: Bicycle, sampling: Sampling, progress: Progress) -> Others:
+    """What needs nothing of ``undamped``."""
     progress("conclusion 4")
     damped = damping(bicycle, sampling.grid_damping)
     progress("other readings of the printed values")
     doubtful = judge_readings(bicycle, sampling)
     progress("a motorcycle")
-    motorcycle = judge_motorcycle(sampling.grid_readings)
+    return Others(damped, doubtful, judge_motorcycle(sampling.grid_readings))
+
+
+def joined(bicycle: Bicycle, sampling: Sampling, one: Undamped, two: Others) -> Study:
+    """Both halves, judged."""
     return Study(
         bikestab=__version__,
         source=bicycle.source,
@@ -136,11 +163,11 @@ def study(bicycle: Bicycle, sampling: Sampling = FULL, progress: Progress = lamb
         thresholds=claims.THRESHOLDS,
         figures=FIGURES,
         figure3=_figure3(bicycle),
-        refinement=refined,
+        refinement=one.refined,
         built={name: _own_offset(name) for name in BUILT},
-        conclusions=_judged(finite, wide, best, damped),
-        sensitivity=doubtful,
-        motorcycle=motorcycle,
+        conclusions=_judged(one.finite, one.wide, one.best, two.damped),
+        sensitivity=two.doubtful,
+        motorcycle=two.motorcycle,
     )
 
 

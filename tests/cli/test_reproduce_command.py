@@ -4,7 +4,6 @@ import sys
 
 import pytest
 from bikestab_cli.main import main
-from matplotlib.figure import Figure
 
 from bikestab.paper1981 import reproduce
 from bikestab.paper1981.box import FULL, QUICK
@@ -16,15 +15,12 @@ from tests.small import record
 def run(monkeypatch, capsys, tmp_path):
     sizes = []
 
-    def computed(bicycle, sampling, progress):
+    def computed(sampling, progress):
         sizes.append(sampling)
         progress("everything")
-        return record()
+        return record(), dict.fromkeys(FIGURES, b"")
 
-    monkeypatch.setattr(reproduce, "study", computed)
-    monkeypatch.setattr(
-        reproduce, "draw_all", lambda numbers, sampling: ((name, Figure()) for name in FIGURES)
-    )
+    monkeypatch.setattr(reproduce, "computed", computed)
     monkeypatch.chdir(tmp_path)
 
     def run_it(*args):

@@ -10,11 +10,11 @@ from bikestab.model import characteristic_table
 from bikestab.paper1981.box import LAM, SIGMA, V
 from bikestab.paper1981.pictures.machine import PITCH, draw_machine
 from bikestab.paper1981.pictures.ticks import oriented
-from bikestab.paper1981.reproduce import draw_all
+from bikestab.paper1981.reproduce import draw_others, draw_undamped
 from bikestab.paper1981.study import ARROW, FIGURES
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import CONDITIONS, stable
-from tests.small import TINY, record
+from tests.small import TINY, halves
 
 
 @pytest.mark.parametrize("fixed", ["lam", "sigma"])
@@ -49,7 +49,9 @@ def test_the_arrow_points_into_the_region():
 
 
 def test_figures_are_drawn():
-    found = dict(draw_all(record(), TINY))
+    one, two = halves()
+    bicycle = Bicycle.preset("dikarev1981")
+    found = dict([*draw_undamped(bicycle, TINY, one), *draw_others(bicycle, TINY, two)])
     assert set(found) == set(FIGURES)
     left, right = found["figure3.png"].axes[:2]
     assert len(left.lines) > 12
