@@ -1,5 +1,7 @@
 """The traced curves: on their equations in 40 digits, complete, and with the right ends."""
 
+from itertools import islice
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,6 +15,7 @@ from bikestab.region.lines import stable_ranges
 from bikestab.region.onto import between
 from bikestab.speeds import intervals_of
 from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
+from tests.references.verify_meshes import pairs
 from tests.strategies import machines
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -207,3 +210,20 @@ def test_zeros_and_jumps_within_brackets():
     np.testing.assert_array_equal(found[1], rows)
     np.testing.assert_allclose(found[0][[0, 1, 2, 4, 5]], root[[0, 1, 2, 4, 5]], atol=2e-16, rtol=0)
     assert found[0][3] == pytest.approx(root[3], abs=1e-5)  # its cube is 1e-15 there
+
+
+def test_a_fold_that_turns_within_a_cell_of_the_grid():
+    """It ends where it touches the curve on which weave meets capsize, and not on the chord of the cell."""
+    family, ends = next(islice(pairs(320, seed=1), 280, None))
+    found = trace(family, *ends, samples=201)
+    low, size = np.array(ends[:2])[:, 0], np.ptp(ends[:2], axis=1)
+    fold = next(c for c in found if c.name == "fold")
+    assert fold.ends == ("box", "weave meets capsize")
+    places = np.column_stack([(np.array([c.x, c.y]).T - low).T / size[:, np.newaxis] for c in found])
+    assert places.min() >= 0
+    assert places.max() <= 1
+    met = [c for c in found if c.ends == ("box", "fold")]
+    assert (met[0].x[-1], met[0].y[-1]) == (fold.x[-1], fold.y[-1])
+    around = ((a, a + 0.01 * d) for a, d in zip(low + (0, 0.185) * size, size * (1, 2), strict=True))
+    finer = next(c for c in trace(family, *around, ends[2], samples=101) if c.name == "fold")
+    np.testing.assert_allclose([fold.x[-1], fold.y[-1]], [finer.x[-1], finer.y[-1]], rtol=0, atol=1e-9)

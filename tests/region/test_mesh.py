@@ -244,6 +244,14 @@ def test_an_interval_that_closes_at_two_corners_of_a_sliver():
     assert away_from_surface(family, ends, mesh) < 1e-9
 
 
+def test_a_curve_that_turns_within_a_cell():
+    """Its end was then looked for along the cell's chord, and found outside of the box."""
+    family, ends = next(islice(pairs(320, seed=1), 280, None))
+    mesh = region_mesh(family, *ends, cells=100)
+    assert open_edges(mesh, ends) == 0
+    assert away_from_surface(family, ends, mesh) < 1e-9
+
+
 def test_more_cells_make_a_finer_mesh():
     sizes = [len(region_mesh(*family_case("2007"), cells=n).triangles) for n in (20, 40)]
     assert 3 < sizes[1] / sizes[0] < 5
