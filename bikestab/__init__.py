@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from bikestab.design.sensitivity import Sensitivity, sensitivity
     from bikestab.errors import BikestabError, InputError, ScanError
     from bikestab.pipeline import Scan, open_volume, scan
+    from bikestab.region.first_sigma import FirstSigma, first_sigma
     from bikestab.speeds import KINDS, REASONS, Intervals
     from bikestab.stability import eigenvalues, growth_rate, modes, stable, stable_intervals
     from bikestab.volume import Volume
@@ -20,6 +21,7 @@ _HOME = {  # module → public names
     "design.sensitivity": ("Sensitivity", "sensitivity"),
     "errors": ("BikestabError", "InputError", "ScanError"),
     "pipeline": ("Scan", "open_volume", "scan"),
+    "region.first_sigma": ("FirstSigma", "first_sigma"),
     "speeds": ("KINDS", "REASONS", "Intervals"),
     "stability": ("eigenvalues", "growth_rate", "modes", "stable", "stable_intervals"),
     "volume": ("Volume",),
@@ -29,6 +31,7 @@ __all__ = [
     "REASONS",
     "Bicycle",
     "BikestabError",
+    "FirstSigma",
     "InputError",
     "Intervals",
     "Scan",
@@ -36,6 +39,7 @@ __all__ = [
     "Sensitivity",
     "Volume",
     "eigenvalues",
+    "first_sigma",
     "growth_rate",
     "modes",
     "open_volume",

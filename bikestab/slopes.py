@@ -5,6 +5,7 @@ The formulas are those of ``letters`` and ``model``, evaluated with numbers that
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -18,7 +19,7 @@ from bikestab.gains import GAINS
 from bikestab.letters import letters
 from bikestab.model import Model, entries_of
 from bikestab.notation import reduced
-from bikestab.polynomials import Polynomial
+from bikestab.polynomials import difference_of, product_of
 from bikestab.routh import hurwitz3_of
 from bikestab.sines import sine_cosine
 from bikestab.twofold import Twofold
@@ -83,17 +84,31 @@ def slopes_of(
     return Slopes(variables, entries_of(parts))
 
 
+def skates(bicycle: Bicycle) -> dict[str, float]:
+    """NaN for the spin inertias of wheels of no radius, by their names in the bicycle's notation."""
+    names = ("IRyy", "IFyy") if bicycle.bodies is not None else ("C1", "C2")
+    radii = bicycle.R1, bicycle.R2
+    return {name: math.nan for name, radius in zip(names, radii, strict=True) if radius == 0}
+
+
 def condition_at(slopes: Slopes, name: str, V: Twofold) -> Dual:
     """p0 … p4 or hurwitz3 at speeds V [m/s] of the designs' shape, with its slope by V among the others."""
+    return value_at(slopes, condition_of(slopes, name), V)
+
+
+def condition_of(slopes: Slopes, name: str) -> list[Dual | None]:
+    """P0 … p4, hurwitz3, or q = p2 p3 − p4 p1, as a polynomial in V; None for a power that it cannot have."""
     rows: list[list[Any]] = [[slopes.entries.get((k, j)) for j in range(4)] for k in range(5)]
     if name == "hurwitz3":
-        polynomial: Sequence[Any] = hurwitz3_of(rows)
-    else:
-        polynomial = rows[int(name[1])]
-    return _value(polynomial, Dual(V, seed(slopes.variables, "V", V.value.ndim)))
+        return hurwitz3_of(rows)
+    if name == "q":
+        return difference_of(product_of(rows[2], rows[3]), product_of(rows[4], rows[1]))
+    return rows[int(name[1])]
 
 
-def _value(polynomial: Sequence[Any] | Polynomial, x: Dual) -> Dual:
+def value_at(slopes: Slopes, polynomial: Sequence[Dual | None], V: Twofold) -> Dual:
+    """A polynomial at speeds V [m/s] of the designs' shape, with its slope by V among the others."""
+    x: Dual = Dual(V, seed(slopes.variables, "V", V.value.ndim))
     total: Any = None
     for a in reversed(polynomial):
         if total is not None:

@@ -49,22 +49,34 @@ def effects(found: Sensitivity, interval: int) -> list[Row]:
     return sorted(rows, key=_size)
 
 
+def without_interval(found: Sensitivity) -> list[Row]:
+    """The rows of a design that has no stable interval: nothing of its ends."""
+    return [_plain_row(found, name) for name in found.values]
+
+
 def _row(found: Sensitivity, name: str, interval: int, change: float | None) -> Row:
     dV1, dV2 = finite(found.dV1[name][interval]), finite(found.dV2[name][interval])
     one, two = (finite(each[interval]) for each in found.elasticity(name))
     unbounded = found.intervals.upper[interval] == UNBOUNDED
     return {
-        "name": name,
-        "value": found.values[name],
-        "unit": found.units[name],
-        "meaning": found.meanings[name],
-        "notation": name in found.bicycle.notation and name != "trail",  # which stands for σ there
+        **_plain_row(found, name),
         "dV1": dV1,
         "dV2": None if unbounded else dV2,
         "elasticity_V1": one,
         "elasticity_V2": None if unbounded else two,
         "change": change,
     }
+
+
+def _plain_row(found: Sensitivity, name: str) -> Row:
+    return {
+        "name": name,
+        "value": found.values[name],
+        "unit": found.units[name],
+        "meaning": found.meanings[name],
+        "notation": name in found.bicycle.notation and name != "trail",  # which stands for σ there
+        "dV1": None, "dV2": None, "elasticity_V1": None, "elasticity_V2": None, "change": None,
+    }  # fmt: skip
 
 
 def _size(row: Row) -> tuple[float, float]:

@@ -17,7 +17,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.design.rates import Rate, best_rate
 from bikestab.errors import InputError, nearest
 from bikestab.model import Floats, Model
-from bikestab.slopes import Slopes, by_name, condition_at, free_parameters, slopes_of
+from bikestab.slopes import Slopes, by_name, condition_at, free_parameters, skates, slopes_of
 from bikestab.speeds import CAPSIZE, REST, WEAVE, Intervals
 from bikestab.stability import stable_intervals
 from bikestab.twofold import Twofold
@@ -175,13 +175,6 @@ def two_parts(bicycle: Bicycle) -> Bicycle:
     """The machine in the paper's notation, so that one in another can stand beside it."""
     numbers = {name: value for name, value in bicycle.numbers().items() if value is not None}
     return Bicycle.from_mapping({**numbers, "source": bicycle.source}, name=bicycle.name)
-
-
-def skates(bicycle: Bicycle) -> dict[str, float]:
-    """NaN for the spin inertias of wheels of no radius, by their names in the bicycle's notation."""
-    names = ("IRyy", "IFyy") if bicycle.bodies is not None else ("C1", "C2")
-    radii = bicycle.R1, bicycle.R2
-    return {name: math.nan for name, radius in zip(names, radii, strict=True) if radius == 0}
 
 
 def held(

@@ -56,12 +56,6 @@ FRONT: Columns = {
     **_DESIGN, "V1": ("float64", "m/s"), "V2": ("float64", "m/s"), "lower": _TEXT, "upper": _TEXT,
     "width": ("float64", "m/s"), "growth_rate": ("float64", "1/s"), "V": ("float64", "m/s"), "at": _TEXT,
 }  # fmt: skip
-_NUMBER = ("float64", "")
-SENSITIVITY: Columns = {
-    "interval": ("int32", "1"), "parameter": _TEXT, "value": _NUMBER, "unit": _TEXT,
-    "dV1": _NUMBER, "dV2": _NUMBER, "elasticity_V1": ("float64", "1"), "elasticity_V2": ("float64", "1"),
-    "change": _NUMBER,
-}  # fmt: skip
 _LAYER = 64  # values of the first axis read at once: a layer of the volume's chunks
 _ROWS = 10_000  # turned into text at once
 
@@ -182,22 +176,6 @@ def front_blocks(front: Sequence[JudgedDesign], over: Sequence[str] = ()) -> Ite
         name: np.array([row[name] for row in rows], float if kind == "float64" else object)
         for name, kind in kinds.items()
     }
-
-
-def sensitivity_blocks(records: Sequence[Mapping[str, Any]]) -> Iterator[Block]:
-    """The rows of SENSITIVITY from ``design.effects``: one per interval and parameter."""
-    for record in records:
-        for number, interval in enumerate(record["intervals"], 1):
-            rows = interval["parameters"]
-            named = {"parameter": "name"}
-            columns = {
-                name: np.array(
-                    [row[named.get(name, name)] for row in rows], float if kind == "float64" else object
-                )
-                for name, (kind, _) in SENSITIVITY.items()
-                if name != "interval"
-            }
-            yield {"interval": np.full(len(rows), number, np.int32), **columns}
 
 
 def columns(columns: Columns, family: Family) -> Columns:

@@ -79,6 +79,13 @@ _BEST = record(
     "the lowest growth rate", value=maybe("[1/s]"), V=num("at this speed [m/s]"),
     kind=words("smooth, crossing, meeting or end"), slope=named(maybe(""), "its derivatives by parameter"),
 )  # fmt: skip
+_FIRST = record(
+    "the smallest σ with a stable speed at this λ", value=maybe("null: none, or none that begins"),
+    V=maybe("where the interval opens [m/s]; null: at infinity"),
+    kind={"type": ["string", "null"], "description": "the curve that it is on, as in export --skeleton"},
+    slope=named(maybe(""), "its derivatives by parameter; empty: none"),
+    reason=words("why there is none; else empty"),
+)  # fmt: skip
 _SIDE = record(
     "one of the two", name=words("as it was typed"), bicycle=words("its name"), model=MODEL,
     delta=num("steering damping [kg m²/s]"), intervals=INTERVALS,
@@ -145,7 +152,7 @@ SCHEMAS: dict[str, Schema] = {
     ),
     "sensitivity": of_machines(
         "a design", **DESIGN, hold={"enum": ["trail", "offset", "sigma"], "description": "what stays"},
-        best=_BEST, tried=some(_TRIED, "computed anew, not by derivatives"),
+        best=_BEST, sigma_min=_FIRST, tried=some(_TRIED, "computed anew, not by derivatives"),
         intervals=some(
             record("an interval", **ENDS, parameters=some(_ROW, "the largest effects first")), "ascending"
         ),

@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     help="What stays where tilt, wheelbase or front radius vary.  [default: the trail of the 25 parameters, "
     "σ in the paper's notation]",
 )  # fmt: skip
+@click.option(
+    "--of", "what", type=click.Choice(["speeds", "growth", "sigma_min"]), default="speeds", show_default=True,
+    help="What the table shows: V1 and V2, the lowest growth rate, or the smallest stable σ at this tilt.",
+)  # fmt: skip
 @several_machines
 @sd_option
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw the effects as bars: PNG, PDF or SVG.")
@@ -40,6 +44,7 @@ if TYPE_CHECKING:
 def command(
     given: Given,
     hold: Hold | None,
+    what: str,
     bicycle_name: tuple[str, ...],
     changes: Values,
     model: Model,
@@ -60,6 +65,10 @@ def command(
     offset held the fork stays, and the trail follows tilt and front wheel; σ held is a trail that
     grows with the wheelbase.
 
+    --of growth and --of sigma_min give the derivatives of the lowest growth rate up to 30 m/s, and of the
+    smallest σ that has a stable speed at this tilt: in the range of these around the design, or in the next
+    range above it. JSON and CSV always have both.
+
     Standard deviations, those in the bicycle's file and --sd, give V1 and V2 their own: by the linear rule
     from the derivatives, and by 20 000 machines drawn at random, which tell how many of them are stable at
     all. Where the two disagree the reason is told, and the drawn machines are right. They do not depend on
@@ -71,19 +80,27 @@ def command(
       bikestab sensitivity --bicycle meijaard2007 --hold offset --csv benchmark.csv
       bikestab sensitivity --lam 0.2 --sigma 0.08 --json
       bikestab sensitivity --bicycle meijaard2007 --head-angle 71deg --trail 55mm
+      bikestab sensitivity --lam 0.1 --sigma 0.08 --of sigma_min
       bikestab sensitivity --bicycle meijaard2007 -o tornado.png
       bikestab sensitivity --bicycle meijaard2007 --bicycle sharp1971
       bikestab sensitivity --bicycle meijaard2007 --set mB=60,85,110
       bikestab sensitivity --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
     """
-    from bikestab_cli.sensitivity_words import side_by_side, told
+    from bikestab_cli.sensitivity_more import MOVED, told_of
+    from bikestab_cli.sensitivity_words import opening, side_by_side, told
     from bikestab_cli.spread_words import tell_rider, told_spread
 
-    from bikestab.design.effects import sensitivity_record
+    from bikestab.design.effects import sensitivity_record, without_interval
     from bikestab.design.sensitivity import sensitivity, two_parts
     from bikestab.design.spread import own_spread, plain
-    from bikestab.export.tables import SENSITIVITY, of_machines, save_csv, sensitivity_blocks
+    from bikestab.export.effects import SENSITIVITY, sensitivity_blocks
+    from bikestab.export.tables import of_machines, save_csv
     from bikestab.plausible import deviation_doubts
+    from bikestab.region.first_sigma import first_sigma, first_sigma_record
+
+    if output and what != "speeds":
+        problem = "the picture shows V1 and V2: leave out --of, or -o"
+        raise click.UsageError(problem, click.get_current_context())
 
     machines = machines_chosen(bicycle_name, delta, changes, given)
     bicycles = [each.bicycle for each in machines]
@@ -96,6 +113,7 @@ def command(
             sensitivity(bicycle, *design_chosen(bicycle, given), hold=hold, model=model)
             for bicycle in bicycles
         ]
+        firsts = [first_sigma(each.bicycle, each.lam, each.sigma, model=model) for each in found]
     for bicycle in bicycles:
         tell_which(bicycle, deviations[1])
         tell_rider(bicycle, {**bicycle.deviations, **deviations[1]})
@@ -104,13 +122,13 @@ def command(
     with told_as_options():
         spreads = [own_spread(each, of_file=True, given=deviations[1]) for each in found]
     records = [
-        {**sensitivity_record(each), "spread": known and plain(known)}
-        for each, known in zip(found, spreads, strict=True)
+        {**sensitivity_record(each), "sigma_min": first_sigma_record(first), "spread": known and plain(known)}
+        for each, first, known in zip(found, firsts, spreads, strict=True)
     ]
     if csv_file:
         blocks = [
-            (each.bicycle.name, each.changes, sensitivity_blocks([r]))
-            for each, r in zip(machines, records, strict=True)
+            (each.bicycle.name, each.changes, sensitivity_blocks(r, without_interval(own)))
+            for each, own, r in zip(machines, found, records, strict=True)
         ]
         save_csv(*of_machines(SENSITIVITY, blocks), csv_file)
     if output:
@@ -119,8 +137,12 @@ def command(
     if as_json:
         print_json(record_of(machines, model, [[_result(record)] for record in records], files))
         return
-    if len(found) == 1:
-        click.echo(told(found[0], records[0], machines[0].changes))
+    if what != "speeds":
+        shown = zip(machines, found, firsts, strict=True)
+        texts = [told_of(opening(of, each.changes), of, MOVED[what](of, first)) for each, of, first in shown]
+        click.echo("\n\n".join(texts))
+    elif len(found) == 1:
+        click.echo(told(found[0], firsts[0], records[0], machines[0].changes))
     else:
         click.echo(side_by_side(found, records, machines))
     for each, known in zip(found, spreads, strict=True):

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from bikestab_cli.output import design_columns, heading, letter_of, prose, table
+from bikestab_cli.sensitivity_more import BUILDERS, growth_moved, line, sigma_moved
 
 if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
@@ -14,9 +15,9 @@ if TYPE_CHECKING:
     from bikestab.design.effects import Row, Tried
     from bikestab.design.sensitivity import Sensitivity
     from bikestab.records import Interval
+    from bikestab.region.first_sigma import FirstSigma
 
 _FEW = 4  # machines that fit side by side
-_BUILDERS = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi)}  # units in which a frame is built
 _LEAST = 4  # listed as those that lower V1 most easily
 _NAMES = 6  # listed as those that widen the interval most
 _HELD = {
@@ -26,10 +27,9 @@ _HELD = {
 }
 
 
-def told(found: Sensitivity, record: Mapping[str, Any], changes: str) -> str:
+def told(found: Sensitivity, first: FirstSigma, record: Mapping[str, Any], changes: str) -> str:
     """One machine: what the design is, a table for each stable interval, and what it says in words."""
-    changed = f" ({changes})" if changes else ""
-    parts = [f"{heading(found.bicycle, found.model)}{changed}\n{_design(found)}\n{_HELD[found.hold]}"]
+    parts = [opening(found, changes)]
     for interval in record["intervals"]:
         rows = interval["parameters"]
         parts.append(f"stable from {_ends(interval)}")
@@ -38,9 +38,15 @@ def told(found: Sensitivity, record: Mapping[str, Any], changes: str) -> str:
         parts.append(_words(rows))
     if not record["intervals"]:
         parts.append("no stable speed, and so no end of one to move; 'bikestab vrange' says what is nearest")
-    parts.append(_decay(found))
+    parts += [line(found, growth_moved(found)), line(found, sigma_moved(first))]
     parts.append("computed anew, not by derivatives:\n" + _tried(record["tried"], record["intervals"]))
     return "\n\n".join(prose(part) for part in parts if part)
+
+
+def opening(found: Sensitivity, changes: str) -> str:
+    """Which machine and design it is, and what is held."""
+    changed = f" ({changes})" if changes else ""
+    return f"{heading(found.bicycle, found.model)}{changed}\n{_design(found)}\n{_HELD[found.hold]}"
 
 
 def _design(found: Sensitivity) -> str:
@@ -67,7 +73,7 @@ def _table(rows: Sequence[Row], first: str) -> str:
             _number(row["dV2"], 1 / size), _share(row["elasticity_V2"]), _number(row["change"], size, "+.3g"),
         ]
         for row in rows
-        for unit, size in [_BUILDERS.get(row["unit"], (row["unit"], 1.0))]
+        for unit, size in [BUILDERS.get(row["unit"], (row["unit"], 1.0))]
     ]  # fmt: skip
     return table(head, cells)
 
@@ -104,7 +110,7 @@ def _least(rows: Sequence[Row]) -> str:
     found = []
     for row in rows:
         if row["change"] and row["value"] and row["notation"]:
-            unit, size = _BUILDERS.get(row["unit"], (row["unit"], 1.0))
+            unit, size = BUILDERS.get(row["unit"], (row["unit"], 1.0))
             share = abs(row["change"] / row["value"])
             found.append((share, f"{row['name']} {row['change'] * size:+.3g} {unit} ({share:.1%})"))
     return ", ".join(text for _, text in sorted(found)[:_LEAST])
@@ -115,20 +121,6 @@ def _gain(row: Row) -> float | None:
     if row["dV1"] is None or row["dV2"] is None:
         return None
     return 0.01 * abs(row["value"]) * (row["dV2"] - row["dV1"])
-
-
-def _decay(found: Sensitivity) -> str:
-    """The lowest growth rate, and what moves it most."""
-    best = found.best
-    known = [name for name in found.values if name in found.bicycle.notation and name != "trail"]
-    effects = {name: 0.01 * best.slope[name] * abs(found.values[name]) for name in known}
-    moving = {name: effect for name, effect in effects.items() if effect and math.isfinite(effect)}
-    names = sorted(moving, key=lambda name: -abs(moving[name]))[:_NAMES]
-    return (
-        f"lowest growth rate: {best.value:.6g} 1/s at {best.V:.6g} m/s; it changes with 1 % more of\n"
-        + ", ".join(f"{name} {moving[name]:+.2g}" for name in names)
-        + " 1/s"
-    )
 
 
 def _tried(results: Sequence[Tried], own: Sequence[Interval]) -> str:

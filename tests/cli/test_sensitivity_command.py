@@ -82,6 +82,28 @@ def test_no_stable_speed(told):
     assert "no stable speed" in out
 
 
+def test_the_growth_rate_and_the_first_sigma_on_request(told, without_warnings):
+    code, out, err = told("--bicycle", "meijaard2007", "--of", "sigma_min")
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    assert "at this λ: -0.00785233 (weave meets capsize at" in out
+    assert out.split("1 % more\n")[1].split()[:5] == ["w", "1020", "mm", "6.7853e-05", "+6.92e-04"]
+    assert "dgrowth/dp" in told("--bicycle", "meijaard2007", "--of", "growth")[1]
+    code, out, _ = told("--lam", "0.1", "--sigma", "0.08", "--csv", "a.csv", "--json")
+    (record,) = json.loads(out)["results"]
+    with Path("a.csv").open(encoding="utf-8") as file:
+        rows = {row["parameter"]: row for row in csv.DictReader(file)}
+    assert rows["m1"]["interval"] == "0"
+    assert rows["m1"]["dV1"] == ""
+    assert float(rows["m1"]["dsigma_min"]) == record["sigma_min"]["slope"]["m1"]
+    assert float(rows["m1"]["dgrowth_rate"]) == record["best"]["slope"]["m1"]
+    code, out, err = told("--bicycle", "meijaard2007", "--lam", "-0.2", "--of", "sigma_min")
+    assert "none begins; no larger σ up to 0.5 has a stable speed" in " ".join(out.split())
+    code, out, err = told("--bicycle", "meijaard2007", "--of", "growth", "-o", "a.png")
+    assert (code, out) == (2, "")
+    assert "the picture shows V1 and V2" in err
+
+
 def test_deviations_give_the_speeds_their_own(told, without_warnings):
     args = "--bicycle", "meijaard2007", "--sd", "c=10mm", "--sd", "lam=1.5deg"
     code, out, err = told(*args)
