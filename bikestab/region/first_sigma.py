@@ -42,6 +42,10 @@ class FirstSigma(NamedTuple):
     ``slope`` has its derivative by each parameter of the notation and by those of the front, at constant λ:
     zero by σ, trail and offset, on which it does not depend. Where there is no such σ, or no derivative, it
     is None or empty, and ``reason`` says why.
+
+    >>> import bikestab as bs
+    >>> bs.first_sigma(bs.Bicycle.preset("meijaard2007"), lam=-0.2).reason
+    'no larger σ up to 0.5 has a stable speed at this tilt'
     """
 
     value: float | None
