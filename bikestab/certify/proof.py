@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -14,36 +14,33 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.certify.bernstein import Floats
-from bikestab.certify.centred import CentredProver
-from bikestab.certify.conditions import condition_formulas
-from bikestab.certify.grid import grid_of
-from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE, Decided, Decides, Prover, search
-from bikestab.errors import InputError
-from bikestab.formulas import table_formulas
+from bikestab.certify.box import PARTS, Box, box_of
+from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE, Decided, search
 from bikestab.letters import PARAMETERS, Model
-from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.stability import eigenvalues
-
-MOST_TOLERANCES = 12
-MOST_BERNSTEIN = 1  # tolerances: with two it decides 1 % more cells in 50 times the time
-BERNSTEIN = "Bernstein coefficients"  # in tan(λ/2), σ, V or V² and what is varied
-CENTRED = "centred form"  # values and derivatives in the middles of blocks, products of two derivatives
-_PARTS = (1, 4, 4, 2, 2)  # that each tolerance is divided into, by their number; more are not
 
 
 @dataclass(frozen=True)
 class Proof:
-    """A box of λ [rad], σ, V [m/s] and parameters ``varied``, cut by ``edges``, and what each cell is.
+    """A box of λ [rad], σ, V [m/s] and parameters, cut into cells, and what each cell is."""
 
-    ``method`` says how it was proved: by Bernstein coefficients, or by a centred form.
-    """
-
-    bicycle: Bicycle
-    model: Model
-    varied: tuple[str, ...]
-    edges: tuple[Floats, ...]
+    box: Box
     decided: Decided
-    method: str
+
+    @property
+    def bicycle(self) -> Bicycle:
+        """The machine, of which ``varied`` are the parameters that may be anything in their ranges."""
+        return self.box.bicycle
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """The parameters with tolerances."""
+        return self.box.varied
+
+    @property
+    def edges(self) -> tuple[Floats, ...]:
+        """Where the box is cut, in λ [rad], σ, V [m/s] and what is varied."""
+        return self.box.edges
 
     @cached_property
     def cells(self) -> NDArray[np.uint8]:
@@ -56,9 +53,14 @@ class Proof:
     @cached_property
     def fractions(self) -> tuple[float, float, float]:
         """Shares of the box's volume that are undecided, proved stable and proved unstable."""
-        widths = [np.diff(edges) if edges[-1] > edges[0] else np.ones(1) for edges in self.edges[:3]]
-        volume = np.einsum("i,j,k->ijk", *(width / width.sum() for width in widths))
-        shares = [float(volume[self.cells == k].sum()) for k in range(3)]
+        lam, sigma, V = (
+            np.diff(edges) / (edges[-1] - edges[0]) if edges[-1] > edges[0] else np.ones(1)
+            for edges in self.edges[:3]
+        )
+        shares = [0.0] * 3
+        for width, layer in zip(lam, self.cells, strict=True):  # one by one, for the memory
+            for k in range(3):
+                shares[k] += float(width * (sigma @ ((layer == k) @ V)))
         for k in range(3):  # whole boxes without the rounding of sums
             if np.all(self.cells == k):
                 return tuple(float(i == k) for i in range(3))  # type: ignore[return-value]  # of three
@@ -88,7 +90,7 @@ class Proof:
         lam, sigma, V, *others = middle
         values = dict(zip(self.varied, others, strict=True))
         machine = self.bicycle.replaced(values) if values else self.bicycle
-        roots = eigenvalues(machine, V, lam=lam, sigma=sigma, model=self.model)
+        roots = eigenvalues(machine, V, lam=lam, sigma=sigma, model=self.box.model)
         found = sorted(([float(s.real), float(s.imag)] for s in roots), reverse=True)
         return {
             "lam": lam,
@@ -104,11 +106,11 @@ class Proof:
         names = ("lam", "sigma", "V", *self.varied)
         return {
             "bicycle": self.bicycle.name,
-            "model": self.model,
+            "model": self.box.model,
             "delta": self.bicycle.delta,
             "box": {name: [float(e[0]), float(e[-1])] for name, e in zip(names, self.edges, strict=True)},
             "cells": list(self.cells.shape),
-            "method": self.method,
+            "method": self.box.method,
             "verdict": self.verdict,
             "proved_stable": stable,
             "proved_unstable": unstable,
@@ -125,8 +127,8 @@ class Proof:
         told = {
             "format": "bikestab certificate 2",
             "version": version,
-            "method": self.method,
-            "model": self.model,
+            "method": self.box.method,
+            "model": self.box.model,
             "notation": "four bodies" if bicycle.bodies else "two parts",
             "machine": {name: float(value).hex() for name, value in own.items()},
             "varied": list(self.varied),
@@ -151,44 +153,16 @@ def prove(
     *,
     model: Model = "refined",
     tolerances: Mapping[str, tuple[float, float]] | None = None,
+    parts: Sequence[int] = PARTS,
+    only_stable: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Proof:
     """Prove cells between the edges ``lam`` [rad], ``sigma``, ``V`` [m/s] stable or unstable.
 
     ``tolerances`` are ranges of parameters in the bicycle's notation, within which a cell must be so for
-    every machine. One value is given twice. Raises InputError for machines that cannot be, and for more
-    tolerances than MOST_TOLERANCES.
+    every machine; ``parts`` has into how many each is cut, by their number. One value is given twice. With
+    ``only_stable`` it ends where it is seen that not all can be proved stable. Raises InputError as
+    ``box_of``.
     """
-    ranges = dict(tolerances or {})
-    if bicycle.gains:
-        problem = f"the bicycle {bicycle.name!r} has feedback, of which nothing can be proved"
-        raise InputError(problem, hint="leave its gains out")
-    if len(ranges) > MOST_TOLERANCES:
-        raise InputError(
-            f"{len(ranges)} tolerances at once are more than the {MOST_TOLERANCES} that can be proved",
-            hint="leave some out, or prove boxes of them one after the other",
-        )
-    for name, edges in (("lam", lam), ("sigma", sigma), ("V", V)):
-        if np.any(np.diff(edges) < 0):
-            raise InputError(
-                "edges do not ascend", key=(name,), hint="allowed: from the lowest to the highest"
-            )
-    for end in (0, -1):
-        check_tilt(float(lam[end]), ("lam",))
-        check_trail(float(sigma[end]), ("sigma",))
-        check_speed(float(V[end]), ("V",))
-    for end in (0, 1):
-        if ranges:
-            bicycle.replaced({name: ends[end] for name, ends in ranges.items()})
-    many = len(ranges) > MOST_BERNSTEIN
-    parts = _PARTS[len(ranges)] if len(ranges) < len(_PARTS) else 1
-    others = [
-        np.linspace(*ends, parts + 1) if ends[1] > ends[0] else np.array(ends) for ends in ranges.values()
-    ]
-    grid = grid_of([lam, sigma, V, *others])
-    if many:
-        prover: Decides = CentredProver(bicycle, tuple(ranges), model, grid)
-    else:
-        prover = Prover(condition_formulas(table_formulas(bicycle, tuple(ranges), model=model)), grid)
-    decided = search(prover, progress=progress)
-    return Proof(bicycle, model, tuple(ranges), grid.edges, decided, CENTRED if many else BERNSTEIN)
+    box = box_of(bicycle, lam, sigma, V, model, tolerances or {}, parts)
+    return Proof(box, search(box.prover(), only_stable=only_stable, progress=progress))

@@ -88,9 +88,13 @@ class Prover:
 
 
 def search(
-    prover: Decides, *, most_blocks: int = 1 << 62, progress: Callable[[float], None] | None = None
-) -> Decided:
-    """Decide blocks, from the whole box down to single cells; at most ``most_blocks`` are looked at."""
+    prover: Decides, *, most_blocks: int = 1 << 62, only_stable: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> Decided:  # fmt: skip
+    """Decide blocks, from the whole box down to single cells; at most ``most_blocks`` are looked at.
+
+    With ``only_stable`` the search ends when a block is unstable, or a cell undecided.
+    """
     cells = prover.grid.cells
     blocks = np.array([[(0, number) for number in cells]])
     positive = np.zeros((1, len(ORDER)), bool)
@@ -101,7 +105,8 @@ def search(
         looked_at += len(blocks)
         found = prover.verdicts(blocks, positive)
         final = (found != UNDECIDED) | np.all(blocks[:, :, 1] - blocks[:, :, 0] == 1, axis=1)
-        if looked_at >= most_blocks:
+        spoiled = only_stable and np.any((found == UNSTABLE) | (final & (found == UNDECIDED)))
+        if looked_at >= most_blocks or spoiled:
             final[:] = True
         halvings.append(float(_sizes(blocks[found == UNDECIDED]).sum() / np.prod(cells, dtype=float)))
         done.append(blocks[final])

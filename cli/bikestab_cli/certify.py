@@ -183,7 +183,7 @@ def _words(proof: Proof) -> str:
     record = proof.record()
     box = ", ".join(f"{name} {low:.6g} ... {high:.6g}" for name, (low, high) in record["box"].items())
     lines = [
-        heading(proof.bicycle, proof.model),
+        heading(proof.bicycle, proof.box.model),
         f"box: {box}",
         f"verdict: {record['verdict']}, by {record['method']}",
         f"proved stable    {100 * record['proved_stable']:8.4f} %",
@@ -219,6 +219,7 @@ def _verify(name: str, quiet: bool) -> None:
         if number > LONG:
             click.echo(f"note: {name}: {number} blocks, 0.05 to 5 s each", err=True)
         with progress("verify", quiet) as show:
+            show(0, cells)
             told = check(certificate, lambda done: show(done, cells))
         click.echo(f"{name}: {told}")
     except Refuted as error:

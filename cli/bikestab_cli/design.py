@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -23,11 +21,9 @@ from bikestab_cli.options import (
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
-from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
+from bikestab_cli.several import Values, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
-    from bikestab.design.best import Best
-    from bikestab.design.criteria import Wanted
     from bikestab.model import Model
 
 
@@ -80,6 +76,17 @@ if TYPE_CHECKING:
 @over_ends_option
 @free_option
 @sd_option
+@click.option(
+    "--certified",
+    is_flag=True,
+    help="The largest box around one design that is proved stable, with sides in the proportions of --sd.",
+)
+@click.option(
+    "--certificate",
+    type=FILE,
+    metavar="FILE",
+    help="With --certified: write the proof for a checker, as JSON.",
+)
 @several_machines
 @click.option(
     "-o", "--output", type=FILE, metavar="FILE", help="Draw the plane of designs as PNG, PDF or SVG."
@@ -100,6 +107,8 @@ def command(
     over: dict[str, Ends],
     free: dict[str, Ends],
     deviations: tuple[bool, dict[str, float]],
+    certified: bool,
+    certificate: str | None,
     bicycle_name: tuple[str, ...],
     changes: Values,
     model: Model,
@@ -119,6 +128,11 @@ def command(
     --free lets the search choose up to six parameters; with --sd and --stable it also finds the most robust
     design: the largest ball, in these standard deviations, of machines stable at all the speeds asked for.
 
+    --certified finds the largest box around the bicycle's own design, or that of one --lam, --trail and so
+    on, that is proved stable: every tilt, trail and speed in it, and every value of other parameters that
+    --sd names. Its sides grow in the proportions of --sd, 1deg and 10mm without it; the speeds are those of
+    --stable, or else grow from the middle of the stable ones, in proportion to these.
+
     Several --bicycle and several values of --set give one table, and one picture of their fronts, a curve
     each.
 
@@ -136,6 +150,7 @@ def command(
       bikestab design --bicycle meijaard2007 --set mB=60,110 --V 5 -o fronts.png
       bikestab design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm -o loads.png
       bikestab design --bicycle meijaard2007 --free trail=2cm:15cm --stable 5:5.4 --sd mB=3
+      bikestab design --bicycle meijaard2007 --certified --stable 4.6:5.4
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
     from bikestab_cli.design_words import told, told_all
@@ -146,6 +161,14 @@ def command(
     from bikestab.family import Family
     from bikestab.files import to_stdout
 
+    if certified or certificate:
+        from bikestab_cli.largest import check_certified, tell_largest
+
+        check_certified(certified, free or over or output or csv_file)
+        check_files(certificate)
+        machines = machines_chosen(bicycle_name, delta, changes)
+        tell_largest(machines, deviations, model, (V_max, judged, stable), certificate, as_json)
+        return
     if free or any(deviations):
         from bikestab_cli.free import check_free, tell_free
 
@@ -165,7 +188,9 @@ def command(
             for each in machines
         ]
     if output:
-        _check_picture(output, *ends)
+        from bikestab_cli.design_picture import check_picture
+
+        check_picture(output, *ends)
     check_files(csv_file, output)
     found = [(machine, wanted, best_designs(wanted)) for machine, wanted in zip(machines, asked, strict=True)]
     (machine, wanted, best), *others = found
@@ -180,7 +205,9 @@ def command(
         save_csv(*of_machines(columns(FRONT, asked[0].family), blocks), csv_file)
         files["csv"] = csv_file
     if output:
-        _draw(found, output)
+        from bikestab_cli.design_picture import draw
+
+        draw(found, output)
         files["picture"] = output
     if as_json:
         searched: dict[str, object] = {"lam": lam, "sigma": sigma, "trail": trail, "offset": offset}
@@ -211,21 +238,6 @@ def _axes(over: dict[str, Ends]) -> tuple[str, str]:
     return x, y
 
 
-def _draw(found: Sequence[tuple[Chosen, Wanted, Best]], output: str) -> None:
-    from bikestab.plot.files import save
-
-    if len(found) > 1:
-        from bikestab.plot.fronts import draw_fronts
-
-        save(draw_fronts([(machine.words, wanted, best) for machine, wanted, best in found]), Path(output))
-        return
-    from bikestab.plot.designs import draw_designs
-    from bikestab.region.curves import trace
-
-    _, wanted, best = found[0]
-    save(draw_designs(wanted, best, trace(wanted.family, wanted.x, wanted.y)), Path(output))
-
-
 def _tilts(head_angles: Ends) -> Ends:
     from bikestab.geometry import tilt_of
 
@@ -234,14 +246,3 @@ def _tilts(head_angles: Ends) -> Ends:
         raise click.UsageError(problem, click.get_current_context())
     low, high = (tilt_of(angle) for angle in head_angles[::-1])
     return low, high
-
-
-def _check_picture(output: str, lam: Ends, sigma: Ends) -> None:
-    if Path(output).suffix.lower() not in (".png", ".pdf", ".svg"):
-        raise click.BadParameter(f"{output!r} has no ending .png, .pdf or .svg", param_hint="--output")
-    for name, ends in (("--lam", lam), ("--sigma", sigma)):
-        if ends[0] == ends[1]:
-            raise click.BadParameter(
-                f"a picture needs a range, not {ends[0]:g} alone; leave --output out, or give START:STOP",
-                param_hint=name,
-            )

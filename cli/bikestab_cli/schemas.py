@@ -110,6 +110,17 @@ _ROBUST = record(
     radius=num("of the ball, in standard deviations"),
     nearest=named(NUMBERS, "the nearest machine that is not stable, by parameter"),
 )  # fmt: skip
+_LARGEST = record(
+    "with --certified: the largest box that is proved stable; all else but searched is then null or empty",
+    factor=num("of the sides"),
+    sides=named(NUMBERS, "half sides for a factor of 1, by lam [rad], sigma, V [m/s] and parameter"),
+    box=named(_PAIR, "its ends, which are exact"), verdict={"const": "stable"}, method=words("of the proof"),
+    cells=some({"type": "integer"}, "along each axis"),
+    beyond=maybe("the smallest factor without a proof; null: none up to 100"),
+    no_machine={"type": ["string", "null"], "description": "what no machine has at the ends of that"},
+    unstable_from=maybe("the smallest factor at which a corner is known that is not stable"),
+    unstable={"type": ["object", "null"], "description": "that corner and its growth_rate [1/s]"},
+)  # fmt: skip
 _WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")
 _AXIS = record(
     "an axis", first=num("first value"), last=num("last value"), num=whole("how many"),
@@ -137,7 +148,7 @@ SCHEMAS: dict[str, Schema] = {
     ),
     "eigen": EIGEN,
     "design": of_machines(
-        "a machine's search", ("most_robust",),
+        "a machine's search", ("most_robust", "certified"),
         searched={
             **record(
                 "what was asked, the ends of --over by parameter", ("lam", "sigma", "trail", "offset"),
@@ -149,6 +160,7 @@ SCHEMAS: dict[str, Schema] = {
         own=_JUDGED, widest=_JUDGED, lowest_V1=_JUDGED, fastest_decay=_JUDGED,
         pareto=some(_JUDGED, "from the widest to the fastest; empty with --free"), closest=_JUDGED,
         most_robust=either(_ROBUST, NULL, text="with --free; null without --sd"),
+        certified=_LARGEST,
     ),
     "sensitivity": of_machines(
         "a design", **DESIGN, hold={"enum": ["trail", "offset", "sigma"], "description": "what stays"},

@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle
 from bikestab.certify import checker
+from bikestab.certify.box import BERNSTEIN, CENTRED
 from bikestab.certify.centred import CentredProver
 from bikestab.certify.grid import grid_of
-from bikestab.certify.proof import BERNSTEIN, CENTRED, prove
+from bikestab.certify.proof import prove
 from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE, search
 from bikestab.errors import InputError
 from bikestab.formulas import table_formulas
@@ -117,7 +118,7 @@ def test_tolerances_hold_for_every_machine_in_them():
         assert np.all(truth[verdicts == UNSTABLE] == 0)
     both = prove(BENCHMARK, lam[:2], sigma[:2], np.array([4.9, 5.1]), tolerances=ranges)
     assert both.verdict == "stable"
-    assert (proof.method, both.method) == (BERNSTEIN, CENTRED)
+    assert (proof.box.method, both.box.method) == (BERNSTEIN, CENTRED)
     many = dict.fromkeys([name for name in BENCHMARK.given if name not in ("c", "lam")][:13], (0.1, 0.2))
     with pytest.raises(InputError, match="13 tolerances"):
         prove(BENCHMARK, lam, sigma, V, tolerances=many)
@@ -315,7 +316,7 @@ def test_six_tolerances_by_the_centred_form():
     }
     design = np.full(2, BENCHMARK.lam), np.full(2, BENCHMARK.sigma)
     proof = prove(BENCHMARK, *design, np.linspace(3, 8, 21), tolerances=ranges)
-    assert proof.method == CENTRED
+    assert proof.box.method == CENTRED
     assert set(proof.cells.ravel().tolist()) == {UNDECIDED, STABLE, UNSTABLE}
     rng = np.random.default_rng(3)
     for _ in range(10):

@@ -136,3 +136,54 @@ def test_a_scan_draws_them_and_so_does_slice(bikestab, tmp_path):
     assert (tmp_path / "out" / "certified_sigma_0.1.png").is_file()
     code, _, err = bikestab("slice", tmp_path / "out", "--V", "5", "--certified", "--probability")
     assert (code, "give one of them" in err) == (2, True)
+
+
+def test_the_largest_box_of_design(bikestab, tmp_path):
+    """Three ways of one question: the box as JSON, in words, and as a certificate that is proved again."""
+    options = [
+        "--bicycle",
+        "meijaard2007",
+        "--stable",
+        "4.6:5.4",
+        "--sd",
+        "head_angle=1deg",
+        "--sd",
+        "trail=1cm",
+    ]
+    path = tmp_path / "box.json"
+    code, out, _ = bikestab("design", "--certified", *options, "--certificate", path, "--json")
+    answer = json.loads(out)
+    (found,) = answer["results"]
+    box = found["certified"]["box"]
+    assert (code, answer["files"]) == (0, {"certificate": str(path)})
+    assert found["certified"]["verdict"] == "stable"
+    ends = [f"--{name}={low!r}:{high!r}" for name, (low, high) in box.items()]
+    again = json.loads(bikestab("certify", "--bicycle", "meijaard2007", *ends, "--json")[1])
+    assert (again["verdict"], again["box"]) == ("stable", box)
+    certificate = json.loads(path.read_text("utf-8"))
+    assert [[float.fromhex(edges[i]) for i in (0, -1)] for edges in certificate["edges"]] == list(
+        box.values()
+    )
+    words = bikestab("design", "--certified", *options)[1]
+    half = math.degrees(0.5 * (box["lam"][1] - box["lam"][0]))
+    assert f"head angle 72.00 ± {math.floor(100 * half) / 100:.2f}°, trail" in words
+    assert "4.600 ... 5.400 m/s" in words
+    assert "larger is not" in words
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--certified", "--lam", "0.1:0.2"], "give --lam one value"),
+        (["--certified", "--lam", "0.2"], "has no sigma of its own; give --sigma"),
+        (["--certified", "--free", "lam=0.1:0.2"], "leave out --free"),
+        (["--certified", "--bicycle", "meijaard2007", "--stable", "1:2"], "from 4.292 to 6.024 m/s"),
+        (["--certified", "--bicycle", "meijaard2007", "--V", "1:2"], "a range is --stable"),
+        (["--certified", "--bicycle", "meijaard2007", "--sd", "offset=1mm"], "give head_angle and trail"),
+        (["--certificate", "x.json"], "is of the box that --certified finds"),
+    ],
+)
+def test_mistakes_of_the_largest_box(bikestab, options, words):
+    code, out, err = bikestab("design", *options)
+    assert (code, out) == (2, "")
+    assert words in err

@@ -35,6 +35,7 @@ CASES = [
     ("design", *BENCHMARK, "--over", "mB=60:110", "--over", "offset=0:8cm", "--V", "5"),
     ("design", *BENCHMARK, "--V", "5", "--csv", "a.csv"),
     ("design", "--stable", "1:20"),
+    ("design", *BENCHMARK, "--certified", "--sd", "trail=5mm", "--stable", "4.6:5.4"),
     ("design", *BENCHMARK, "--bicycle", "sharp1971", "--offset", "0:8cm"),
     ("sensitivity", *BENCHMARK, "--sd", "c=10mm"),
     ("sensitivity", *BENCHMARK, "--bicycle", "sharp1971"),

@@ -1,0 +1,44 @@
+"""The picture of ``bikestab design -o``: the plane of designs, or the fronts of several machines."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+from bikestab_cli.options import Ends
+
+if TYPE_CHECKING:
+    from bikestab_cli.several import Chosen
+
+    from bikestab.design.best import Best
+    from bikestab.design.criteria import Wanted
+
+
+def draw(found: Sequence[tuple[Chosen, Wanted, Best]], output: str) -> None:
+    """Draw what was found into a file."""
+    from bikestab.plot.files import save
+
+    if len(found) > 1:
+        from bikestab.plot.fronts import draw_fronts
+
+        save(draw_fronts([(machine.words, wanted, best) for machine, wanted, best in found]), Path(output))
+        return
+    from bikestab.plot.designs import draw_designs
+    from bikestab.region.curves import trace
+
+    _, wanted, best = found[0]
+    save(draw_designs(wanted, best, trace(wanted.family, wanted.x, wanted.y)), Path(output))
+
+
+def check_picture(output: str, lam: Ends, sigma: Ends) -> None:
+    """Refuse what no picture can be made as, or of."""
+    if Path(output).suffix.lower() not in (".png", ".pdf", ".svg"):
+        raise click.BadParameter(f"{output!r} has no ending .png, .pdf or .svg", param_hint="--output")
+    for name, ends in (("--lam", lam), ("--sigma", sigma)):
+        if ends[0] == ends[1]:
+            raise click.BadParameter(
+                f"a picture needs a range, not {ends[0]:g} alone; leave --output out, or give START:STOP",
+                param_hint=name,
+            )
