@@ -12,6 +12,7 @@ import common
 import memory
 import peers
 import points
+import proofs
 import scaling
 import scans
 import startup
@@ -27,5 +28,6 @@ if __name__ == "__main__":
             "memory": memory.run,
             "startup": startup.run,
             "peers": peers.run,
+            "proofs": proofs.run,
         },
     )
