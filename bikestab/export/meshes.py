@@ -21,7 +21,7 @@ from bikestab.region.mesh import Mesh
 from bikestab.speeds import CAPSIZE, KINDS, WEAVE
 
 UNITS = {"lam": "rad", "sigma": "1", "V": "m/s"}
-MESHES = {".vtp": "pyvista", ".vtu": "pyvista", ".ply": "", ".stl": ""}  # ending → package it needs
+MESHES = {".vtp": "vtkmodules", ".vtu": "vtkmodules", ".ply": "", ".stl": ""}  # ending → package it needs
 COLOURS = {WEAVE: (0, 114, 178), CAPSIZE: (230, 159, 0)}  # blue and orange of Okabe and Ito
 _LENGTH = 10.0  # of each side of the box in the file, as far as round factors allow
 
@@ -85,23 +85,34 @@ def _upper(mesh: Mesh) -> NDArray[np.uint8]:
 def _vtk(
     mesh: Mesh, points: Floats, names: tuple[str, ...], scale: Floats, about: Mapping[str, str], ending: str
 ) -> bytes:
-    import pyvista
+    from vtkmodules.vtkCommonCore import vtkStringArray
+    from vtkmodules.vtkCommonDataModel import VTK_TRIANGLE, vtkPolyData, vtkUnstructuredGrid
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
-    surface = pyvista.PolyData.from_regular_faces(points, mesh.triangles)
-    values = (*mesh.points.T, mesh.decay)
-    for name, value in zip((*names, "growth_rate"), values, strict=True):
-        surface.point_data[name] = np.ascontiguousarray(value)
-    surface.cell_data["kind"] = mesh.kind
-    surface.cell_data["upper"] = _upper(mesh)
-    surface.field_data["scale"] = scale
+    place, cells = _vtk_surface(points, mesh.triangles)
+    data: Any
     writer: Any
     if ending == ".vtp":
-        for name, text in about.items():
-            surface.field_data[name] = [text]
-        writer, data = vtkXMLPolyDataWriter(), surface
+        writer, data = vtkXMLPolyDataWriter(), vtkPolyData()
+        data.SetPolys(cells)
     else:
-        writer, data = vtkXMLUnstructuredGridWriter(), surface.cast_to_unstructured_grid()
+        writer, data = vtkXMLUnstructuredGridWriter(), vtkUnstructuredGrid()
+        data.SetCells(VTK_TRIANGLE, cells)
+    data.SetPoints(place)
+    data.GetFieldData().AddArray(_vtk_array(scale, "scale"))
+    for name, text in about.items() if ending == ".vtp" else ():
+        words = vtkStringArray()
+        words.SetName(name)
+        words.InsertNextValue(text)
+        data.GetFieldData().AddArray(words)
+    of_points = dict(zip((*names, "growth_rate"), (*mesh.points.T, mesh.decay), strict=True))
+    for part, arrays in (
+        (data.GetPointData(), of_points),
+        (data.GetCellData(), {"kind": mesh.kind, "upper": _upper(mesh)}),
+    ):
+        for name, values in arrays.items():
+            part.AddArray(_vtk_array(values, name))
+        part.SetActiveScalars(next(iter(arrays)))
     writer.SetInputData(data)
     writer.WriteToOutputStringOn()  # so that Python writes the file, and raises its errors
     writer.Write()
@@ -110,6 +121,26 @@ def _vtk(
         lines = "".join(f"  {name}: {text}\n".replace("--", "- -") for name, text in about.items())
         head += f"\n<!--\n{lines}-->"
     return f"{head}\n{body}".encode()
+
+
+def _vtk_surface(points: Floats, triangles: NDArray[np.integer]) -> tuple[Any, Any]:
+    """VTK's points and cells."""
+    from vtkmodules.vtkCommonCore import VTK_ID_TYPE, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray
+
+    place, cells = vtkPoints(), vtkCellArray()
+    place.SetData(_vtk_array(points, "Points"))
+    first = np.arange(0, 3 * len(triangles) + 1, 3)
+    cells.SetData(*(_vtk_array(each, kind=VTK_ID_TYPE) for each in (first, triangles.ravel())))
+    return place, cells
+
+
+def _vtk_array(values: NDArray[Any], name: str = "", kind: int | None = None) -> Any:
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    made = numpy_to_vtk(np.ascontiguousarray(values), deep=True, array_type=kind)
+    made.SetName(name)
+    return made
 
 
 def _ply(mesh: Mesh, points: Floats, about: Mapping[str, str]) -> bytes:

@@ -165,7 +165,11 @@ def test_mistakes_in_options(bikestab, volumes, tmp_path, option, value, expecte
 
 @pytest.mark.parametrize(
     ("option", "name", "package"),
-    [("--mesh", "r.vtp", "pyvista"), ("--mesh", "r.vtu", "pyvista"), ("--intervals", "i.parquet", "pyarrow")],
+    [
+        ("--mesh", "r.vtp", "vtkmodules"),
+        ("--mesh", "r.vtu", "vtkmodules"),
+        ("--intervals", "i.parquet", "pyarrow"),
+    ],
 )
 def test_missing_extra(bikestab, volumes, monkeypatch, tmp_path, option, name, package):
     monkeypatch.setitem(sys.modules, package, None)
@@ -177,7 +181,7 @@ def test_missing_extra(bikestab, volumes, monkeypatch, tmp_path, option, name, p
 
 
 def test_csv_ply_and_stl_need_no_extra(bikestab, volumes, monkeypatch):
-    for package in ("pyvista", "pyarrow", "vtkmodules"):
+    for package in ("pyarrow", "vtkmodules"):
         monkeypatch.setitem(sys.modules, package, None)
     wanted = ["--mesh", "r.ply", "--mesh", "r.stl", "--intervals", "i.csv"]
     code, out, _ = bikestab("export", volumes["1981"], *wanted, "--cells", 10)
