@@ -25,7 +25,7 @@ def test_pictures_are_current(draw):
         names.add(name)
         with Image.open(FOLDER / name) as picture:
             held = json.loads(picture.text["contents"])
-            assert picture.size == pytest.approx(160 * figure.get_size_inches(), abs=1), name
+            assert picture.size == pytest.approx(draw.DPI * figure.get_size_inches(), abs=1), name
         now = json.loads(json.dumps(draw.contents(figure)))
         assert now["words"] == held["words"], name
         assert len(now["shown"]) == len(held["shown"]), name

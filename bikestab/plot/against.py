@@ -19,7 +19,7 @@ from bikestab.plot.settings import own_settings
 @own_settings()
 def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     """A machine by name, at a speed [m/s]; ``unit`` is that of the parameter."""
-    figure = Figure(figsize=(7.4, 5.2), layout="constrained")
+    figure = Figure(figsize=(5.6, 4.4), layout="constrained")
     ax = figure.add_subplot()
     x = found.values
     growth = np.array([float(modes.eigenvalues.real.max()) for modes in found.modes])
@@ -50,6 +50,6 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     handles += [entry("|imaginary part|", color="0.3", ls=DASHES)] if oscillates else []
     if np.any(growth < 0):
         handles.append(Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="stable"))
-    legend_below(figure, handles, ncols=4)
+    legend_below(figure, handles)
     set_title(ax, f"{short(name)} at {V:g} m/s")
     return figure

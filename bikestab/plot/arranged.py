@@ -23,6 +23,7 @@ _ROW, _FIRST_ROW = 0.167, 0.12  # of a title
 _ENTRY_ROW, _ENTRIES = 0.209, 0.125  # of a legend, and its margins
 _BAR, _TO_BAR = 0.18, 0.25  # width of a colour bar; from what is left of it
 _TITLE = 6 / 72  # between a title and what is below it
+_EMPTY = 0.5  # of axes in three dimensions, above the box
 _RIGHT = 3 * _EM  # the numbers of a second axis at the right, which has none before it is drawn
 
 
@@ -45,14 +46,16 @@ def arrange_plane(figure: Figure, ax: Axes, bar: Axes | None, rows: int) -> None
     second = any(child.get_ylabel() for child in ax.child_axes)
     x1 -= (_TO_BAR if bar or not second else 0.0) + (_BESIDE + _RIGHT if second else 0.0)
     ax.set_position((x0 / width, y0 / height, (x1 - x0) / width, (y1 - y0) / height))
+    ax.title.set_x((width / 2 - x0) / (x1 - x0))  # in the middle of the picture, where long ones fit
 
 
 def arrange_region(figure: Figure, ax: Axes, rows: int) -> None:
     """Put a box in three dimensions, with a title, and a legend of so many rows into a figure."""
     width, height = figure.get_size_inches()
     y0 = _legend(rows)
-    side = min(height - _title(ax) - y0, width - 2 * _EDGE)
+    side = min(height - _title(ax) - y0 + _EMPTY, width - 2 * _EDGE)
     ax.set_position(((width - side) / 2 / width, y0 / height, side / width, side / height))
+    ax.title.set_y((height - _title(ax) - y0) / side)
 
 
 def _above(ax: Axes) -> float:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patheffects import AbstractPathEffect, withStroke
+from matplotlib.ticker import MaxNLocator
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
@@ -14,13 +16,19 @@ from bikestab.model import Model
 
 LABELS = {"lam": "steering-axis tilt λ [rad]", "sigma": "trail / wheelbase σ", "V": "speed V [m/s]"}
 SYMBOLS = {"lam": "λ", "sigma": "σ", "V": "V"}
+_STEPS = [1, 2, 2.5, 5, 10]
+_TICKS = 6  # spaces between the numbers below an axis, at most
+_LONG = 30  # letters of a parameter's meaning, with which it fits beside an axis
 _WHEELBASES = {"w", "c"}  # with which a trail is no fixed multiple of σ
 HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
 
 
 def labels_of(family: Family) -> dict[str, str]:
     """What stands beside the axes of a family and V."""
-    named = {p.name: f"{p.meaning.partition(',')[0]} {p.symbol} [{p.unit}]" for p in family.parameters}
+    named = {}
+    for p in family.parameters:
+        meaning = p.meaning.partition(",")[0].replace("steer torque against the ", "gain on ")
+        named[p.name] = f"{meaning if len(meaning) < _LONG else ''} {p.symbol} [{p.unit}]".strip()
     return {**named, **{name: text for name, text in LABELS.items() if name in {*named, "V"}}}
 
 
@@ -30,6 +38,7 @@ def label_family(ax: Axes, x: str, y: str, family: Family) -> None:
         label_axes(ax, x, y, family.bicycle.c)
         return
     labels = labels_of(family)
+    ax.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
     ax.set_xlabel(labels[x])
     ax.set_ylabel(labels[y])
 
@@ -37,23 +46,26 @@ def label_family(ax: Axes, x: str, y: str, family: Family) -> None:
 def label_axes(ax: Axes, x: str, y: str, wheelbase: float) -> None:
     """Labels for two of λ, σ and V, the head angle [°] or the trail [m] on top, the trail at the right."""
     to_trail = (lambda sigma: np.asarray(sigma) * wheelbase, lambda trail: np.asarray(trail) / wheelbase)
+    ax.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
     ax.set_xlabel(LABELS[x])
     ax.set_ylabel(LABELS[y])
     if x == "lam":
         top = ax.secondary_xaxis("top", functions=(head_angle, _tilt))
         top.set_xlabel("head angle [°]")
+        top.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
     elif x == "sigma":
         top = ax.secondary_xaxis("top", functions=to_trail)
         top.set_xlabel("trail [m]")
+        top.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
     if y == "sigma":
         right = ax.secondary_yaxis("right", functions=to_trail)
         right.set_ylabel("trail [m]")
 
 
-def remarks(bicycle: Bicycle, model: Model) -> str:
-    """The end of a title: what is unusual about damping and model."""
-    damping = f", δ = {bicycle.delta:g} kg m²/s" if bicycle.delta else ""
-    damping += "".join(f", {name} = {gain:g}" for name, gain in bicycle.gains)
+def remarks(bicycle: Bicycle, model: Model, varied: Collection[str] = ()) -> str:
+    """The end of a title: what is unusual about damping, gains, unless they are ``varied``, and model."""
+    damping = f", δ = {bicycle.delta:g} kg m²/s" if bicycle.delta and "delta" not in varied else ""
+    damping += "".join(f", {name} = {gain:g}" for name, gain in bicycle.gains if name not in varied)
     return damping + (", unrefined model" if model == "unrefined" else "")
 
 

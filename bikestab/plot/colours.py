@@ -20,13 +20,20 @@ GROWTH = LinearSegmentedColormap.from_list(
 )
 
 
+# white where no machine is stable, and as blue as what is stable above where all are; black can be read on it
+PROBABILITY = LinearSegmentedColormap.from_list("probability", ["#ffffff", "#a6cbe3", "#4a94cb"])
 OWN = "#e8308a"  # the bicycle's own design
-_ON_PROBABILITY = "#19c0c8"  # which is read on its yellow and its blue
+_SHARE = "#a50026"  # of the machines: read on white and on blue
 
 # one scale for every picture, equal on both sides of zero: linear below the first [1/s], logarithmic above
 _LINEAR, _END = 0.05, 5.0
 _TICKS = (0.1, 0.3, 1.0)
-_SHARES = {0.05: (0, (1, 1.2)), 0.5: "-", 0.95: (0, (4, 1.2, 1, 1.2))}  # shares of machines, and their lines
+# shares of machines, and their lines; the middle one is wide, for the bicycle as it stands lies on it
+_SHARES: dict[float, dict[str, Any]] = {
+    0.05: {"ls": (0, (1, 1.2)), "lw": 1.4},
+    0.5: {"ls": "-", "lw": 4.5, "alpha": 0.45},
+    0.95: {"ls": (0, (4, 1.2, 1, 1.2)), "lw": 1.4},
+}
 
 
 def colour_growth_rate(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats) -> Axes:
@@ -37,7 +44,7 @@ def colour_growth_rate(figure: Figure, ax: Axes, x: Floats, y: Floats, values: F
     )
     ax.set_facecolor("0.6")  # where an eigenvalue is infinite
     bar = figure.colorbar(image, ax=ax)
-    bar.set_label("growth rate [s⁻¹]: largest real part of the eigenvalues")
+    bar.set_label("growth rate [s⁻¹]")
     ticks = sorted({0.0, *(sign * tick for tick in (*_TICKS, _END) for sign in (-1, 1))})
     bar.ax.yaxis.set_major_locator(FixedLocator(ticks))
     bar.ax.yaxis.set_minor_locator(NullLocator())
@@ -60,19 +67,14 @@ def _inverse(part: Floats) -> Floats:
 
 def colour_probability(figure: Figure, ax: Axes, x: Floats, y: Floats, values: Floats, samples: int) -> Axes:
     """Draw the probability of stability, and where it is 5, 50 and 95 %; the axes of its colour bar."""
-    image = ax.pcolormesh(x, y, values, vmin=0, vmax=1, cmap="cividis", shading="nearest", rasterized=True)
+    image = ax.pcolormesh(x, y, values, vmin=0, vmax=1, cmap=PROBABILITY, shading="nearest", rasterized=True)
     bar = figure.colorbar(image, ax=ax)
-    bar.set_label(f"probability of stability, {samples} machines")
+    bar.set_label(f"probability ({samples} machines)")
     for share, style in _SHARES.items():
         if _crossed(values, share):
-            drawn: dict[str, Any] = {
-                "linestyles": [style],
-                "linewidths": 1.2,
-                "zorder": 4,
-                "colors": [_ON_PROBABILITY],
-            }
-            ax.contour(x, y, values, levels=[share], **drawn)
-            bar.ax.axhline(share, color=_ON_PROBABILITY, ls=style, lw=1.4)
+            lines = ax.contour(x, y, values, levels=[share], colors=[_SHARE], zorder=1.8)
+            lines.set(**style)
+            bar.ax.axhline(share, color=_SHARE, **style)
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(y[0], y[-1])
     return bar.ax
@@ -81,7 +83,7 @@ def colour_probability(figure: Figure, ax: Axes, x: Floats, y: Floats, values: F
 def shares(values: Floats) -> list[Line2D]:
     """What the legend says of the curves of equal probability."""
     return [
-        entry(f"{share:.0%} of machines".replace("%", " %"), color=_ON_PROBABILITY, ls=style, lw=1.4)
+        entry(f"{share:.0%} of machines".replace("%", " %"), color=_SHARE, **style)
         for share, style in _SHARES.items()
         if _crossed(values, share)
     ]

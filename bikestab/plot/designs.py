@@ -60,7 +60,7 @@ class Curve(Protocol):
 @own_settings()
 def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Figure:
     """The box of ``wanted``, which needs a length in λ and σ, with the designs found and skeleton curves."""
-    figure = Figure(figsize=(8.2, 6.4), layout="constrained")
+    figure = Figure(figsize=(6.2, 5.9), layout="constrained")
     ax = figure.add_subplot()
     x, y = (np.linspace(*ends, _SAMPLES) for ends in (wanted.x, wanted.y))
     ax.set_xlim(*wanted.x)
@@ -70,11 +70,12 @@ def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Fi
     handles += _curves(ax, curves)
     handles += straight_fork(ax, wanted.family.bicycle) if wanted.family.of_front else []
     handles += _optima(ax, wanted.family, best)
-    bicycle = wanted.family.bicycle
-    label_family(ax, wanted.family.x, wanted.family.y, wanted.family)
+    family = wanted.family
+    label_family(ax, family.x, family.y, family)
     legend_below(figure, handles, handlelength=2.8, fontsize=9)
     what = f"widest interval of stable speeds up to {wanted.V_max:g} m/s"
-    set_title(ax, f"{short(bicycle.name)}{remarks(bicycle, wanted.family.model)}: {what}")
+    unusual = remarks(family.bicycle, family.model, {family.x, family.y})
+    set_title(ax, f"{short(family.bicycle.name)}{unusual}: {what}")
     return figure
 
 

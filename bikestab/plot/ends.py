@@ -32,7 +32,7 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str) -> Figure:
     lines = lines_for(len(machines))
     ends = [V for _, answers in machines for a in answers for i in a["intervals"] for V in (i["V1"], i["V2"])]
     top = _BEYOND * max((V for V in ends if V is not None), default=10.0)
-    figure = Figure(figsize=(8.2, 5.2 if axis else 1.6 + 0.42 * max(len(machines), 3)), layout="constrained")
+    figure = Figure(figsize=(6.2, 4.4 if axis else 1.6 + 0.42 * max(len(machines), 3)), layout="constrained")
     ax = figure.add_subplot()
     ax.tick_params(direction="in", top=True, right=True)
     if axis:

@@ -16,7 +16,7 @@ from bikestab.files import written
 from bikestab.plot.png import png
 from bikestab.plot.settings import own_settings
 
-_DPI = 160
+DPI = 210
 
 
 def save(figure: Figure, path: Path) -> None:
@@ -41,12 +41,12 @@ def drawn(figure: Figure, ending: str = "png") -> bytes:
     if (
         ending == "png"
     ):  # matplotlib's own draws every figure twice, and takes longer to compress it than to draw
-        figure.set_dpi(_DPI)
+        figure.set_dpi(DPI)
         canvas = FigureCanvasAgg(figure)
         canvas.draw()  # type: ignore[no-untyped-call]  # matplotlib's stubs leave these two without types
-        return png(np.asarray(canvas.buffer_rgba()), _DPI)  # type: ignore[no-untyped-call]  # as above
+        return png(np.asarray(canvas.buffer_rgba()), DPI)  # type: ignore[no-untyped-call]  # as above
     picture = io.BytesIO()
-    figure.savefig(picture, format=ending, dpi=_DPI)
+    figure.savefig(picture, format=ending, dpi=DPI)
     return picture.getvalue()
 
 

@@ -19,7 +19,7 @@ from bikestab.plot.sidelabels import label_right, lines_for
 def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]]) -> Figure:
     """Machines by name. Raises InputError for more than there are lines that differ."""
     lines = lines_for(len(machines))
-    figure = Figure(figsize=(8.2, 5.2), layout="constrained")
+    figure = Figure(figsize=(6.2, 4.4), layout="constrained")
     ax = figure.add_subplot()
     names, ends, own_drawn = [], [], False
     for (name, _, best), line in zip(machines, lines, strict=True):

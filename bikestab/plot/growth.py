@@ -29,7 +29,7 @@ def draw_growth(machines: Sequence[Curve], start: float, stop: float) -> Figure:
 
     Raises InputError for more machines than there are lines that differ.
     """
-    figure = Figure(figsize=(8.2, 5.2), layout="constrained")
+    figure = Figure(figsize=(6.2, 4.4), layout="constrained")
     growth_axes(figure.add_subplot(), machines, start, stop)
     return figure
 

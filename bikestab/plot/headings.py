@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from typing import Any
 
 from matplotlib import font_manager
 from matplotlib.axes import Axes
 
-_WIDTH = 85  # letters of size 10 across a picture
+_ON_AN_INCH = 11.5  # of size 10 on an inch, on the mean
 _ROWS = 2
 _NAME = 40
 _MISSING = "\N{REPLACEMENT CHARACTER}"
+_KEPT = "\N{NO-BREAK SPACE}"
 _FONT = "DejaVu Sans"  # which comes with matplotlib
 
 
@@ -22,16 +24,33 @@ def short(name: str) -> str:
     return name if len(name) <= _NAME else f"{name[:half]}…{name[-half:]}"
 
 
-def set_title(ax: Axes, *lines: str, **options: Any) -> None:
-    """Give a picture the title of these lines, each of which is wrapped, and cut after two rows."""
-    rows = [row for line in lines for row in _rows(line)]
+def set_title(ax: Axes, *lines: str, panels: int = 1, **options: Any) -> None:
+    """Give axes, one of so many ``panels`` side by side, a title of lines, wrapped and cut after two rows.
+
+    No quantity is parted from its value and unit, and a minus is none of the hyphens.
+    """
+    figure: Any = ax.figure
+    rows = [row for line in lines for row in _rows(line, int(_ON_AN_INCH * figure.get_figwidth() / panels))]
     text, fonts = _drawable("\n".join(rows))
     options = {"fontsize": 10, **options}
     ax.set_title(text, parse_math=False, fontfamily=fonts, **options)
 
 
-def _rows(line: str) -> list[str]:
-    return textwrap.wrap(line, _WIDTH, max_lines=_ROWS, placeholder=" …") or [""]
+def _rows(line: str, width: int) -> list[str]:
+    line = re.sub(r"(?<![\w.)])-(?=\d)", "−", line)
+    line = re.sub(
+        r" = |(?<=\d) (?=[a-z])|(?<=[a-z]) (?=[a-z]+²)", lambda gap: gap[0].replace(" ", _KEPT), line
+    )
+    rows = textwrap.wrap(line, width, max_lines=_ROWS, placeholder=" …")
+    return [row.replace(_KEPT, " ") for row in rows] or [""]
+
+
+def text_width(text: str, size: float) -> float:
+    """The width of a line of text [inches] in letters of so many points."""
+    font = font_manager.get_font(font_manager.findfont(_FONT))
+    font.set_size(size, 72)
+    font.set_text(text)
+    return float(font.get_width_height()[0]) / 64 / 72
 
 
 def _drawable(text: str) -> tuple[str, list[str]]:

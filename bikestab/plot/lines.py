@@ -14,18 +14,21 @@ from matplotlib.lines import Line2D
 from bikestab.bicycle import Bicycle
 from bikestab.geometry import trail_from
 from bikestab.model import Floats
+from bikestab.plot.headings import text_width
 
 # what bounds the stable region, by the condition that is zero there: its name and its line
 EDGES: dict[str, tuple[str, Any]] = {"hurwitz3": ("weave", "-"), "p0": ("capsize", (0, (5, 1.5)))}
-
+_SPACING, _TO_TEXT, _MARGIN = 1.6, 0.8, 0.9  # em: of a legend's columns, handles and frame
 
 STRAIGHT: dict[str, Any] = {"color": "0.25", "lw": 1.2, "ls": (0, (7, 2, 1, 2))}  # where the fork is straight
 
 
-def draw_on_white(ax: Axes, curves: Iterable[Sequence[Floats]], *, lw: float, **style: Any) -> None:
+def draw_on_white(
+    ax: Axes, curves: Iterable[Sequence[Floats]], *, lw: float, rim: bool = True, **style: Any
+) -> None:
     """Curves (x, y) that can be read on any colour: each has a white rim, and no rim covers a curve."""
     curves = list(curves)
-    for x, y in curves:
+    for x, y in curves if rim else ():
         ax.plot(x, y, color="white", lw=lw + 2, alpha=0.8, solid_capstyle="round", zorder=style.get("zorder"))
     for x, y in curves:
         ax.plot(x, y, lw=lw, **style)
@@ -62,11 +65,27 @@ def entry(label: str, *, lw: float = 1.8, **style: Any) -> Line2D:
     return Line2D([], [], label=label, lw=lw, **style)
 
 
-def legend_below(figure: Figure, handles: Sequence[Artist], ncols: int = 3, **style: Any) -> int:
-    """The legend under the axes, none without entries; how many rows it has."""
-    if handles:
-        figure.legend(
-            handles=list(handles), loc="outside lower center", ncols=ncols, frameon=False,
-            **{"handlelength": 3, **style},
-        )  # fmt: skip
-    return -(-len(handles) // ncols)
+def legend_below(figure: Figure, handles: Sequence[Artist], **style: Any) -> int:
+    """The legend under the axes, none without entries, in columns that fit; how many rows it has."""
+    if not handles:
+        return 0
+    style = {"handlelength": 3, "fontsize": 10, **style}
+    columns = _columns(handles, figure.get_figwidth(), style["handlelength"], style["fontsize"])
+    figure.legend(
+        handles=list(handles), loc="outside lower center", ncols=columns, frameon=False,
+        columnspacing=_SPACING, **style,
+    )  # fmt: skip
+    return -(-len(handles) // columns)
+
+
+def _columns(handles: Sequence[Artist], width: float, handlelength: float, size: float) -> int:
+    """As many columns as fit a width [inches]."""
+    em = size / 72
+    widths = [
+        text_width(str(handle.get_label()), size) + (handlelength + _TO_TEXT) * em for handle in handles
+    ]
+    for columns in range(len(handles), 1, -1):
+        parts = [max(part) for part in np.array_split(widths, columns)]
+        if sum(parts) + ((columns - 1) * _SPACING + 2 * _MARGIN) * em < width:
+            return columns
+    return 1

@@ -29,7 +29,7 @@ def draw_locus(
     near = np.outer(met, 1 + np.array([-1e-4, -1e-6, -1e-9, 1e-9, 1e-6, 1e-4])).ravel()
     V = np.union1d(np.linspace(start, stop, _SAMPLES), near[(near > start) & (near < stop)])
     modes = follow(table, V)
-    figure = Figure(figsize=(7.4, 6.2), layout="constrained")
+    figure = Figure(figsize=(5.6, 5.0), layout="constrained")
     ax = figure.add_subplot()
     s = modes.eigenvalues
     growth = s.real.max(axis=0)
@@ -42,7 +42,7 @@ def draw_locus(
     drawn = _branches(ax, modes)
     _speeds(ax, modes, start, stop)
     styles = {name: style for name, style in STYLES.items() if name in drawn}
-    legend_below(figure, [entry(n, color=c, lw=w) for n, (c, w) in styles.items()], ncols=4)
+    legend_below(figure, [entry(n, color=c, lw=w) for n, (c, w) in styles.items()])
     ax.set_xlabel("real part [s⁻¹]  (green: decays)")
     ax.set_ylabel("imaginary part [rad/s]")
     ax.tick_params(direction="in", top=True, right=True)

@@ -58,7 +58,7 @@ def draw_modes(
     V = np.union1d(np.linspace(start, stop, _SAMPLES), near[(near > start) & (near < stop)])
     modes = follow(table, V)
 
-    figure = Figure(figsize=(7.4, 5.2), layout="constrained")
+    figure = Figure(figsize=(5.6, 4.4), layout="constrained")
     ax = figure.add_subplot()
     ax.set_xlim(start, stop)
     _scale(ax, modes)

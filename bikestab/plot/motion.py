@@ -17,7 +17,7 @@ _ROLL, _STEER, _REAR, _FRONT = "#004488", "#BB5566", "#222222", "#997700"
 @own_settings()
 def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
     """A machine by name, and what pushed it: states by name, in rad and rad/s."""
-    figure = Figure(figsize=(8.2, 6.0), layout="constrained")
+    figure = Figure(figsize=(6.2, 5.4), layout="constrained")
     top, road = figure.subplots(2, 1)
     pairs = (("roll", found.states[0], _ROLL), ("steer", found.states[1], _STEER))
     for ax, x, lines in (

@@ -8,12 +8,14 @@ from typing import Any, cast
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 from mpl_toolkits.mplot3d import Axes3D
-from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from mpl_toolkits.mplot3d.proj3d import proj_transform
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.family import Family
@@ -21,19 +23,23 @@ from bikestab.fields import AXES
 from bikestab.model import Floats
 from bikestab.plot.arranged import arrange_region
 from bikestab.plot.axes import LABELS, labels_of, remarks
+from bikestab.plot.colours import OWN
 from bikestab.plot.headings import set_title, short
-from bikestab.plot.lines import STRAIGHT, legend_below, straight_designs, straight_entry
+from bikestab.plot.lines import STRAIGHT, entry, legend_below, straight_designs
+from bikestab.plot.raster import Raster, rasterize
 from bikestab.plot.settings import own_settings
 from bikestab.region.mesh import Mesh, region_mesh
 from bikestab.region.triangulation import sides_of
-from bikestab.speeds import CAPSIZE, KINDS, WEAVE
+from bikestab.speeds import CAPSIZE, KINDS, WEAVE, intervals_of
 from bikestab.volume import Subject
 
 # two colours of Okabe and Ito (2008) that differ in greyscale too
 SHEETS = {WEAVE: ("#0072b2", "weave boundary"), CAPSIZE: ("#e69f00", "capsize boundary")}
 _CELLS = 48  # of the mesh, per axis
-_CLEAR = 0.6  # of the upper sheet
+_CLEAR = 0.5  # of the upper sheet
+_LONG = 28  # letters of a label, with which it fits beside an axis
 _LIGHT = np.array([-0.45, -0.6, 0.66])  # direction to the light, in units of the box
+_SIZE = 9  # of words beside axes
 _SCALE = (1.0, 1.0, 0.85)  # of the drawn box
 
 
@@ -57,21 +63,21 @@ def draw_region(subject: Subject) -> Figure:
     labels = labels_of(family)
     quick = _Quick(family.bicycle, family.model, family.x, family.y)
     mesh = region_mesh(quick, box[0], box[1], box[2], cells=_CELLS, delaunay=_triangles)
-    figure = Figure(figsize=(7.4, 6.4))
+    figure = Figure(figsize=(5.6, 5.1))
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
-    bicycle = family.bicycle
     straight = subject.axes == AXES
     if straight:
-        lam, sigma = straight_designs(bicycle, box[0], box[1])
+        lam, sigma = straight_designs(family.bicycle, box[0], box[1])
         ax.plot(lam, sigma, box[2][0], zorder=0, **STRAIGHT)  # on the floor, under the surface
-    handles = draw_mesh(ax, mesh, box, [labels[name] for name in subject.axes])
+    short_ones = {p.name: f"{p.symbol} [{p.unit}]" for p in family.parameters if len(labels[p.name]) > _LONG}
+    handles = draw_mesh(ax, mesh, box, [{**labels, **short_ones}[name] for name in subject.axes])
     if straight and not np.isnan(sigma).all():
-        handles.append(straight_entry("smaller σ"))
-    rows = legend_below(figure, handles, ncols=2, handlelength=2)
-    what = (
-        f"{short(bicycle.name)}: stable between the lower and the upper sheet{remarks(bicycle, family.model)}"
-    )
-    set_title(ax, subject.title, what, y=1 / 0.92)  # Axes3D puts it at 0.92 of that
+        handles.append(entry("fork offset b = 0", **STRAIGHT))
+    handles += _own_design(ax, family, box)
+    rows = legend_below(figure, handles, handlelength=2)
+    unusual = remarks(family.bicycle, family.model, {family.x, family.y})
+    what = f"{short(family.bicycle.name)}: stable between lower and upper sheet{unusual}"
+    set_title(ax, subject.title, what, y=1)
     arrange_region(figure, ax, rows)
     return figure
 
@@ -84,25 +90,24 @@ def draw_mesh(
     Returns what the legend has to say. The axes must have been made with ``computed_zorder=False``; they get
     the ``labels``.
     """
-    handles: list[Patch | Line2D] = []
-    if len(mesh.triangles):
-        _surface(ax, mesh, np.array(box))
-        handles = _legend(mesh, _rim(ax, mesh))
-    else:
-        ax.text2D(0.5, 0.5, "no stable motion in this box", transform=ax.transAxes, ha="center")
     ax.set(
         xlim=box[0], ylim=box[1], zlim=box[2],
         xlabel=labels[0], ylabel=labels[1], zlabel=labels[2],
     )  # fmt: skip
     for axis, prune in ((ax.xaxis, None), (ax.yaxis, "lower"), (ax.zaxis, None)):
-        axis.set_major_locator(MaxNLocator(6, prune=prune))  # the first labels of x and y would meet
+        axis.label.set_fontsize(_SIZE)
+        axis.set_tick_params(labelsize=_SIZE, pad=0)
+        axis.set_major_locator(MaxNLocator(5, prune=prune))  # the first labels of x and y would meet
     ax.view_init(elev=25, azim=-125)
-    ax.set_box_aspect(_SCALE, zoom=0.95)
-    return handles
+    ax.set_box_aspect(_SCALE, zoom=1)
+    if len(mesh.triangles):
+        return _legend(mesh, _rim(ax, mesh, _surface(ax, mesh, np.array(box))))
+    ax.text2D(0.5, 0.5, "no stable motion in this box", transform=ax.transAxes, ha="center")
+    return []
 
 
-def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
-    corners = mesh.points[mesh.triangles]
+def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> Raster:
+    """Draw the surface, each triangle lit, the lower sheets seen through the upper."""
     unit = (mesh.points - ends[:, 0]) / (ends[:, 1] - ends[:, 0])
     a, b, c = unit[mesh.triangles].swapaxes(0, 1)
     normal = np.cross(b - a, c - a)
@@ -110,30 +115,59 @@ def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> None:
     light = 0.55 + 0.45 * np.abs(normal @ _LIGHT)  # both sides are seen
     colour = np.full((len(KINDS), 3), 0.5)
     colour[list(SHEETS)] = [to_rgb(name) for name, _ in SHEETS.values()]
-    clear = np.where(mesh.upper, _CLEAR, 1.0)  # the lower sheet is seen through the upper
+    clear = np.where(mesh.upper, _CLEAR, 1.0)
     faces = np.column_stack([colour[mesh.kind] * light[:, np.newaxis], clear])
-    surface = Poly3DCollection(corners, facecolors=faces, edgecolors="none", antialiaseds=False)
-    ax.add_collection3d(surface)
+    raster = rasterize(_projected(ax, mesh.points)[mesh.triangles], faces)
+    image = AxesImage(ax, extent=raster.extent, origin="lower", interpolation="bilinear", zorder=1)
+    image.set_data(raster.pixels)
+    image.set_clip_on(False)
+    ax.add_artist(image)
+    return raster
 
 
-def _rim(ax: Axes3D, mesh: Mesh) -> list[Line2D]:
-    """Where sheets meet and where the surface leaves the box, and what says so."""
+def _projected(ax: Axes3D, points: Floats) -> Floats:
+    """Points (n, 3) in the axes' picture, and how far away they are."""
+    return np.column_stack(proj_transform(*points.T, ax.get_proj()))
+
+
+def _rim(ax: Axes3D, mesh: Mesh, raster: Raster) -> list[Line2D]:
+    """Where sheets meet and where the surface leaves the box, unless hidden, and what says so."""
     edges, which = sides_of(mesh.triangles)
     sheet = np.repeat(mesh.kind * 4 + mesh.upper + 2 * mesh.wall, 3)
     low, high = np.full(len(edges), 99), np.zeros(len(edges), int)
     np.minimum.at(low, which.ravel(), sheet)
     np.maximum.at(high, which.ravel(), sheet)
     once = np.bincount(which.ravel(), minlength=len(edges)) == 1
+    seen = ~raster.hides(*_projected(ax, mesh.points[edges].mean(axis=1)).T)
     handles = []
     for lines, style, label in (
-        (edges[low != high], "-", "the sheets meet"),
-        (edges[once], (0, (1.5, 1)), "the region goes on beyond the box"),
+        (edges[seen & (low != high)], "-", "the sheets meet"),
+        (edges[seen & once], (0, (1.5, 1)), "the region goes on beyond the box"),
     ):
         if len(lines):
             points = mesh.points[lines]
             ax.add_collection3d(Line3DCollection(points, colors="0.1", linewidths=0.9, linestyles=[style]))
             handles.append(Line2D([], [], color="0.1", lw=0.9, ls=style, label=label))
     return handles
+
+
+def _own_design(ax: Axes3D, family: Family, box: Sequence[tuple[float, float]]) -> list[Line2D]:
+    """The stable speeds of the bicycle's own design, above its place on the floor; what the legend says."""
+    own = [value for value in family.own if value is not None]
+    if len(own) < 2 or not all(low <= value <= high for value, (low, high) in zip(own, box[:2], strict=True)):
+        return []
+    x, y = own
+    low, high = box[2]
+    found = intervals_of(family.table(*np.array(own)))
+    ax.plot([x], [y], [low], marker="*", ms=9, color=OWN, mec="black", mew=0.6, ls="none", zorder=0)
+    foot = low
+    for V1, V2 in zip(found.V1[: found.number], found.V2[: found.number], strict=True):
+        start, stop = max(low, float(V1)), min(high, float(V2))
+        if start < stop:
+            ax.plot([x, x], [y, y], [foot, start], color=OWN, lw=1, ls=":", zorder=0)
+            ax.plot([x, x], [y, y], [start, stop], color=OWN, lw=2.4, marker="o", ms=4, zorder=6)
+            foot = stop
+    return [entry("own design", color=OWN, lw=2.4, marker="o", ms=4)]
 
 
 def _legend(mesh: Mesh, lines: list[Line2D]) -> list[Patch | Line2D]:

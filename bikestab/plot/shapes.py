@@ -38,5 +38,5 @@ def draw_shapes(name: str, found: Shapes) -> Figure:
         ax.tick_params(labelsize=8)
         ax.grid(color="0.85")
         words = f"{s.real:.3f} ± {s.imag:.3f}i 1/s" if s.imag else f"{s.real:.3f} 1/s"
-        set_title(ax, found.names[k], words.replace("-", "−"), fontsize=9)
+        set_title(ax, found.names[k], words, panels=len(shown), fontsize=9)
     return figure

@@ -23,7 +23,7 @@ Point = tuple[float, float]
 @own_settings()
 def draw_side(bicycle: Bicycle, lam: float, sigma: float) -> Figure:
     """The machine upright, going to the right, at tilt λ [rad] and trail σ [1]; all lengths in m."""
-    figure = Figure(figsize=(8.4, 6.4), layout="constrained")
+    figure = Figure(figsize=(6.2, 5.0), layout="constrained")
     ax = figure.add_subplot()
     p = bicycle
     top = _ABOVE * max(p.h1, p.h2, 2 * p.R1, 2 * p.R2)

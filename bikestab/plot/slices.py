@@ -18,6 +18,7 @@ from bikestab.plot.axes import SYMBOLS, head_angle, label_family, remarks
 from bikestab.plot.colours import GROWTH, OWN, colour_growth_rate, colour_probability, shares
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import EDGES, draw_on_white, entry, legend_below, straight_fork
+from bikestab.plot.narrow import point_to_narrow
 from bikestab.plot.proved import colour_proved, proved_in_plane
 from bikestab.plot.settings import own_settings
 from bikestab.region.section import Section, edge_curves
@@ -52,7 +53,7 @@ def draw_slice(subject: Subject, fixed: Axis, value: float, field: PlaneField = 
     section = Section(subject.family, fixed, value)
     check_ranges(subject, section.axes, "a picture")
     x, y = (subject.axis(name) for name in section.axes)
-    figure = Figure(figsize=(7.4, 5.2))
+    figure = Figure(figsize=(5.6, 4.3))
     ax = figure.add_subplot()
     bar, handles = _coloured(figure, ax, subject, section, field)
     if subject.axes == AXES and fixed == "V" and handles:
@@ -60,7 +61,7 @@ def draw_slice(subject: Subject, fixed: Axis, value: float, field: PlaneField = 
         handles += straight_fork(ax, subject.family.bicycle)
     handles += _own_design(ax, section)
     _decorate(ax, subject, section)
-    arrange_plane(figure, ax, bar, legend_below(figure, handles, 3 if bar or len(handles) < 6 else 2))
+    arrange_plane(figure, ax, bar, legend_below(figure, handles))
     return figure
 
 
@@ -84,7 +85,7 @@ def _coloured(
             raise InputError(problem, place=str(subject.path), hint=hint)
         probability = _probability(subject, section.fixed, section.value)
         bar = colour_probability(figure, ax, x, y, probability, subject.samples)
-        return bar, _edges(ax, section, x, y, "boundary without the spread") + shares(probability)
+        return bar, _edges(ax, section, x, y, spread=True) + shares(probability)
     growth = growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
     bar = colour_growth_rate(figure, ax, x, y, growth)
     return bar, _stable_region(ax, section, x, y)
@@ -109,6 +110,8 @@ def _stable_region(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Any
         dots.set_linewidth(0)
         handles.append(Patch(facecolor=GROWTH(0.3), hatch="..", edgecolor="0.25", lw=0, label="stable"))
     handles += _edges(ax, section, x, y)
+    drawn = [(np.asarray(x), np.asarray(y)) for x, y in (line.get_data() for line in ax.lines)]
+    point_to_narrow(ax, X, Y, inside, drawn)
     if not handles:
         ax.text(
             0.5, 0.97, "no stable motion in this plane", transform=ax.transAxes, ha="center", va="top",
@@ -122,14 +125,15 @@ def _samples(section: Section, x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return np.linspace(x[0], x[-1], number), np.linspace(y[0], y[-1], number)
 
 
-def _edges(ax: Axes, section: Section, x: Floats, y: Floats, word: str = "boundary") -> list[Line2D]:
-    """Draw the boundary curves; what the legend says of them."""
+def _edges(ax: Axes, section: Section, x: Floats, y: Floats, *, spread: bool = False) -> list[Line2D]:
+    """Draw the boundary curves, thin where there is a ``spread`` around; what the legend says of them."""
     handles = []
     for name, curves in edge_curves(section, list(EDGES), *_samples(section, x, y)).items():
         label, style = EDGES[name]
         if curves:
-            draw_on_white(ax, curves, lw=1.8, color="black", ls=style)
-            handles.append(entry(f"{label} {word}", color="black", ls=style))
+            lw, word = (1.2, ", no spread") if spread else (1.8, " boundary")
+            draw_on_white(ax, curves, lw=lw, rim=not spread, color="black", ls=style)
+            handles.append(entry(label + word, lw=lw, color="black", ls=style))
     return handles
 
 
@@ -145,12 +149,13 @@ def _own_design(ax: Axes, section: Section) -> list[Line2D]:
         if not (left <= x <= right and bottom <= y <= top):
             return []
         style: dict[str, Any] = {"marker": "*", "ms": 15, "mfc": OWN, "mec": "black", "ls": "none"}
-        return ax.plot(x, y, label="own design", zorder=5, **style)
+        return ax.plot(x, y, label="own design", zorder=5, clip_on=False, **style)
     here = own.pop(section.fixed)
     (x,) = own.values()
     if not (left <= x <= right and np.isclose(here, section.value, rtol=1e-9, atol=0)):
         return []
-    return [ax.axvline(x, color=OWN, lw=1.6, label="own design", zorder=1.5)]
+    over_frame: dict[str, Any] = {"zorder": 1.5 if left < x < right else 3, "clip_on": False}
+    return [ax.axvline(x, color=OWN, lw=1.6, label="own design", **over_frame)]
 
 
 def _decorate(ax: Axes, subject: Subject, section: Section) -> None:
@@ -162,5 +167,5 @@ def _decorate(ax: Axes, subject: Subject, section: Section) -> None:
         where["lam"] += f" (head angle {head_angle(value):.2f}°)"
     if subject.axes == AXES:
         where["sigma"] += f" (trail {value * bicycle.c:.4g} m)"
-    what = f"{short(bicycle.name)}: {where[section.fixed]}{remarks(bicycle, family.model)}"
-    set_title(ax, subject.title, what, **title_place(ax))
+    unusual = remarks(bicycle, family.model, {family.x, family.y})
+    set_title(ax, subject.title, f"{short(bicycle.name)}: {where[section.fixed]}{unusual}", **title_place(ax))

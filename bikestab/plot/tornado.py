@@ -14,7 +14,7 @@ from bikestab.plot.settings import own_settings
 
 _V1, _V2 = "#004488", "#DDAA33"  # Tol 2021, high contrast
 _LEAST = 0.005  # %/%: smaller bars are none to see
-_PANEL, _BAR = 5.2, 0.24  # inches
+_PANEL, _BAR = 4.6, 0.24  # inches
 
 
 @own_settings()
@@ -30,11 +30,11 @@ def draw_tornado(machines: Sequence[tuple[str, Sequence[Row]]]) -> Figure:
     most = max((len(rows) for _, rows in shown), default=0)
     figure = Figure(figsize=(_PANEL * max(len(shown), 1), 1.4 + _BAR * max(most, 4)), layout="constrained")
     for i, (name, rows) in enumerate(shown):
-        _panel(figure.add_subplot(1, len(shown), i + 1), name, rows, first=i == 0)
+        _panel(figure.add_subplot(1, len(shown), i + 1), name, rows, panels=len(shown), first=i == 0)
     return figure
 
 
-def _panel(ax: Axes, name: str, rows: Sequence[Row], *, first: bool) -> None:
+def _panel(ax: Axes, name: str, rows: Sequence[Row], *, panels: int, first: bool) -> None:
     place = np.arange(len(rows))
     shares = {"V1": [row["elasticity_V1"] for row in rows], "V2": [row["elasticity_V2"] for row in rows]}
     for end, color, shift in (("V1", _V1, -0.2), ("V2", _V2, 0.2)):
@@ -45,7 +45,7 @@ def _panel(ax: Axes, name: str, rows: Sequence[Row], *, first: bool) -> None:
     ax.grid(axis="x", color="0.9")
     ax.set_axisbelow(True)
     ax.set_xlabel("per cent of the speed for one per cent more")
-    set_title(ax, short(name) if rows else f"{short(name)}: no stable speed")
+    set_title(ax, short(name) if rows else f"{short(name)}: no stable speed", panels=panels)
     if first:
         ax.legend(loc="lower right")
 

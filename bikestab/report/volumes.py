@@ -101,7 +101,7 @@ def _picture(mesh: Mesh, box: Sequence[tuple[float, float]]) -> str:
     figure = Figure(figsize=(6.4, 5.6), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     if handles := draw_mesh(ax, mesh, box):
-        legend_below(figure, handles, ncols=2, handlelength=2)
+        legend_below(figure, handles, handlelength=2)
     file = BytesIO()
     figure.savefig(file, format="png", dpi=72)
     return base64.b64encode(file.getvalue()).decode()

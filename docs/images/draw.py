@@ -30,6 +30,7 @@ from bikestab.design.criteria import Wanted
 from bikestab.family import Family
 from bikestab.paper1981.pictures import draw_sections
 from bikestab.plot.designs import draw_designs
+from bikestab.plot.files import DPI
 from bikestab.plot.region import draw_region
 from bikestab.plot.slices import draw_slice
 from bikestab.region.curves import trace
@@ -100,7 +101,7 @@ def _extent(values: Any) -> list[float]:
 def save(figure: Figure, path: Path) -> None:
     """Write a picture with few colours, and what it shows."""
     drawn = io.BytesIO()
-    figure.savefig(drawn, format="png", dpi=160)
+    figure.savefig(drawn, format="png", dpi=DPI)
     about = PngInfo()
     about.add_text("contents", json.dumps(contents(figure)), zip=True)
     picture = Image.open(drawn).convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)

@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from bikestab.plot.files import save
+from bikestab.plot.files import DPI, save
 from bikestab.plot.png import png
 
 
@@ -35,6 +35,6 @@ def test_a_picture_is_what_matplotlib_saves(tmp_path, layout):
         return figure
 
     save(figure(), tmp_path / "a.png")
-    FigureCanvasAgg(figure()).print_figure(tmp_path / "b.png", dpi=160)
+    FigureCanvasAgg(figure()).print_figure(tmp_path / "b.png", dpi=DPI)
     a, b = (np.asarray(Image.open(tmp_path / name).convert("RGB")) for name in ("a.png", "b.png"))
     np.testing.assert_array_equal(a, b)

@@ -182,7 +182,7 @@ def test_pictures_of_the_probability(spread, swept):
     with Volume(spread[0]) as volume:
         axes = draw_slice(volume, "sigma", 0.081, "probability").axes
         assert "σ = 0.09" in axes[0].get_title()  # the nearest plane of the grid, which the title names
-        assert axes[1].get_ylabel() == "probability of stability, 40 machines"
+        assert axes[1].get_ylabel() == "probability (40 machines)"
     with Volume(swept[0]) as volume, pytest.raises(InputError, match="has no probability"):
         draw_slice(volume.at({"delta": 0, "mB": 70}), "sigma", 0.08, "probability")
 

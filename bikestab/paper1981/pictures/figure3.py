@@ -101,6 +101,6 @@ def draw_space(bicycle: Bicycle, mesh: Mesh) -> Figure:
     ax.plot(*np.stack([start, tip], axis=-1), color="black", lw=2.2, zorder=9)
     ax.plot(*tip[:, np.newaxis], color="black", marker="v", ms=9, zorder=9)  # the arrow is vertical
     ax.text(*start, "stable", ha="center", va="bottom", zorder=9, path_effects=HALO)
-    legend_below(figure, handles, ncols=2, handlelength=2)
+    legend_below(figure, handles, handlelength=2)
     ax.set_title(f"{bicycle.name}: the stability region, computed for the box of figure 3", fontsize=10)
     return figure
