@@ -23,7 +23,7 @@ _ROW, _FIRST_ROW = 0.167, 0.12  # of a title
 _ENTRY_ROW, _ENTRIES = 0.209, 0.125  # of a legend, and its margins
 _BAR, _TO_BAR = 0.18, 0.25  # width of a colour bar; from what is left of it
 _TITLE = 6 / 72  # between a title and what is below it
-_EMPTY = 0.5  # of axes in three dimensions, above the box
+_EMPTY = 0.38  # of axes in three dimensions, above the box
 _RIGHT = 3 * _EM  # the numbers of a second axis at the right, which has none before it is drawn
 
 

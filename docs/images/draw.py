@@ -30,7 +30,6 @@ from bikestab.design.criteria import Wanted
 from bikestab.family import Family
 from bikestab.paper1981.pictures import draw_sections
 from bikestab.plot.designs import draw_designs
-from bikestab.plot.files import DPI
 from bikestab.plot.region import draw_region
 from bikestab.plot.slices import draw_slice
 from bikestab.region.curves import trace
@@ -39,7 +38,8 @@ from bikestab.volume import Volume
 
 HERE = Path(__file__).parent
 CONFIGS = HERE.parents[1] / "configs"
-COLOURS = 200  # of a picture: a third of the bytes, and no eye sees it
+DPI = 180
+COLOURS = 256  # of a picture: a third of the bytes, and no eye sees it
 
 
 def figures() -> Iterator[tuple[str, Figure]]:
@@ -104,7 +104,8 @@ def save(figure: Figure, path: Path) -> None:
     figure.savefig(drawn, format="png", dpi=DPI)
     about = PngInfo()
     about.add_text("contents", json.dumps(contents(figure)), zip=True)
-    picture = Image.open(drawn).convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    few = Image.Quantize.MAXCOVERAGE, 3  # which keeps a star's colour
+    picture = Image.open(drawn).convert("RGB").quantize(COLOURS, *few, dither=Image.Dither.NONE)
     picture.save(path, optimize=True, pnginfo=about)
 
 
