@@ -77,7 +77,7 @@ def test_all_is_within_the_picture(drawn):
     figure = drawn("sharp1971")
     figure.draw_without_rendering()
     whole = figure.bbox
-    ticks = {tick for axis in figure.axes[0].axis_map.values() for tick in axis.get_majorticklabels()}
+    ticks = {tick for axis in figure.axes[0]._axis_map.values() for tick in axis.get_majorticklabels()}
     for text in set(figure.findobj(Text)) - ticks:
         box = text.get_window_extent()
         assert not text.get_text() or ((box.min >= whole.min).all() and (box.max <= whole.max).all()), text
