@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
@@ -17,6 +18,7 @@ from bikestab.plot.png import png
 from bikestab.plot.settings import own_settings
 
 DPI = 210
+_UNDATED: dict[str, dict[str, None]] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 
 def save(figure: Figure, path: Path) -> None:
@@ -46,7 +48,8 @@ def drawn(figure: Figure, ending: str = "png") -> bytes:
         canvas.draw()  # type: ignore[no-untyped-call]  # matplotlib's stubs leave these two without types
         return png(np.asarray(canvas.buffer_rgba()), DPI)  # type: ignore[no-untyped-call]  # as above
     picture = io.BytesIO()
-    figure.savefig(picture, format=ending, dpi=DPI)
+    with rc_context({"svg.hashsalt": "bikestab"}):  # which names its clips at random else
+        figure.savefig(picture, format=ending, dpi=DPI, metadata=_UNDATED.get(ending))
     return picture.getvalue()
 
 

@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -10,10 +11,12 @@ from pathlib import Path
 import matplotlib
 import pytest
 
+import bikestab
 from bikestab.bicycle import Bicycle
-from bikestab.plot.files import save
+from bikestab.plot.files import drawn, save
 from bikestab.plot.side import draw_side
 
+ROOM = Path(bikestab.__file__).parent
 BIKESTAB = shutil.which("bikestab", path=str(Path(sys.executable).parent)) or shutil.which("bikestab")
 
 
@@ -80,6 +83,31 @@ def test_the_import_leaves_the_users_settings(tmp_path):
         env={**os.environ, "MPLBACKEND": "svg"},
     )  # fmt: skip
     assert done.stdout == f"31.0 svg\n{tmp_path} svg\n0\n"
+
+
+OUTSIDE = {  # of bikestab.plot, of each room one module that imports matplotlib
+    path.parent: f"bikestab.{path.parent.relative_to(ROOM).as_posix().replace('/', '.')}.{path.stem}"
+    for path in ROOM.rglob("*.py")
+    if path.parent != ROOM / "plot" and re.search("^(from|import) matplotlib", path.read_text("utf-8"), re.M)
+}
+
+
+@pytest.mark.parametrize("module", OUTSIDE.values())
+def test_rooms_that_import_matplotlib_import_plot_first(module):
+    done = subprocess.run(
+        [sys.executable, "-c", f"import {module}"], env={**os.environ, "MPLBACKEND": "nonsense"},
+        capture_output=True, text=True,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
+def test_the_same_picture_has_the_same_bytes(ending):
+    figures = (draw_side(Bicycle.preset("meijaard2007"), 0.3, 0.08) for _ in range(2))
+    first, second = (drawn(figure, ending) for figure in figures)
+    assert first == second
+    assert b"Date" not in first
+    assert b"date" not in first
 
 
 def test_matplotlib_is_left_as_it_is(tmp_path):
