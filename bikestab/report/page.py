@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import re
+import zlib
 from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
@@ -18,7 +19,8 @@ from bikestab.volume import Volume
 
 _MODULES = (
     "twofold", "table", "roots", "intervals", "eigenvalues", "modes", "motion", "geometry", "drawings",
-    "charts", "page",
+    "volumes", "words", "elements", "library", "charts", "curves", "region", "labels", "controls", "saving",
+    "page",
 )  # fmt: skip
 _IMPORT = re.compile(r'from "\./([a-z]+)\.mjs"')
 CITE = (
@@ -49,7 +51,7 @@ def page_text(records: Sequence[dict[str, Any]]) -> str:
     parts = {
         "TITLE": _escaped(" · ".join(record["title"] for record in records)),
         "STYLE": _file("page.css"),
-        "LIBRARY": _plotly(),
+        "LIBRARY": base64.b64encode(zlib.compress(_plotly().encode(), 9)).decode(),  # a third of its size
         "MODULES": json.dumps({"imports": {f"bikestab/{name}": _module(name) for name in _MODULES}}),
         "DATA": json.dumps(about, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
     }

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
+from PIL import Image
 
 from bikestab.errors import InputError
 from bikestab.family import Family
@@ -29,10 +30,10 @@ if TYPE_CHECKING:
     from mpl_toolkits.mplot3d import Axes3D
 
 Box = dict[str, list[float]]  # ends of λ [rad], σ and V [m/s]
-MOST_MACHINES = 24  # of a sweep: each brings some 100 kB
+MOST_MACHINES = 24  # of a sweep: each brings some 110 kB
 _PLANE = 81  # designs per axis of the coloured plane
 _CELLS = 36  # of the surface, per axis
-_STEPS = 65535  # of a surface's coordinates, in the box
+_STEPS = 65535  # of a surface's coordinates in the box, and of the plane's colour
 _CURVE = 121  # points of a curve, at most
 
 
@@ -80,7 +81,7 @@ def _machine(volume: Volume, box: Box) -> dict[str, Any]:
         "plane": _plane(family, lam, sigma, V),
         "curves": _curves(family, lam, sigma, V),
         "mesh": _mesh(mesh, np.array([lam, sigma, V])),
-        "picture": _picture(mesh, [lam, sigma, V]),
+        **_picture(mesh, [lam, sigma, V]),
     }
 
 
@@ -90,21 +91,29 @@ def _mesh(mesh: Mesh, box: Floats) -> dict[str, Any]:
     steps = np.rint((mesh.points - low) / (high - low) * _STEPS)
     return {
         "points": _bytes(np.clip(steps, 0, _STEPS), "<u2"),
-        "triangles": _bytes(mesh.triangles, "<u4"),
+        "triangles": _bytes(mesh.triangles, "<u2" if len(mesh.points) <= _STEPS else "<u4"),
         "kind": _bytes(mesh.kind, "u1"),
     }
 
 
 @own_settings()
-def _picture(mesh: Mesh, box: Sequence[tuple[float, float]]) -> str:
-    """The same surface as a picture, for browsers that draw no three dimensions."""
+def _picture(mesh: Mesh, box: Sequence[tuple[float, float]]) -> dict[str, Any]:
+    """The same surface as a picture: at once, in print, and for browsers that draw no three dimensions.
+
+    With the matrix (3, 4) that takes (λ, σ, V, 1) to w times the shares of its width and height, and w.
+    """
     figure = Figure(figsize=(6.4, 5.6), layout="constrained")
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     if handles := draw_mesh(ax, mesh, box):
         legend_below(figure, handles, handlelength=2)
-    file = BytesIO()
-    figure.savefig(file, format="png", dpi=72)
-    return base64.b64encode(file.getvalue()).decode()
+    drawn, file = BytesIO(), BytesIO()
+    figure.savefig(drawn, format="png", dpi=100)
+    Image.open(drawn).convert("RGB").quantize(64).save(file, "png", optimize=True)  # a quarter of its size
+    flat = (ax.transData + figure.transFigure.inverted()).get_matrix()
+    return {
+        "picture": base64.b64encode(file.getvalue()).decode(),
+        "view": (flat @ ax.get_proj()[[0, 1, 3]]).tolist(),
+    }
 
 
 def _plane(
@@ -114,10 +123,13 @@ def _plane(
     x, y = np.linspace(*lam, _PLANE), np.linspace(*sigma, _PLANE)
     found = intervals_of(family.table(x, y[:, np.newaxis]))
     within = np.clip(found.V2, *V) - np.clip(found.V1, *V)
+    width = np.nansum(within, axis=-1)
+    step = float(np.max(width)) / _STEPS
     return {
         "lam": x.tolist(),
         "sigma": y.tolist(),
-        "width": _bytes(np.nansum(within, axis=-1), "<f4"),
+        "step": step,
+        "width": _bytes(np.rint(width / (step or 1.0)), "<u2"),
     }
 
 
