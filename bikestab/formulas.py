@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 from bikestab.algebra import Polynomial, Ratio, common_denominator
 from bikestab.bicycle import Bicycle
-from bikestab.errors import InputError
 from bikestab.letters import PARAMETERS, Model, letters
 from bikestab.model import Coefficients, coefficients_of, entries_of
 from bikestab.notation import reduced
@@ -45,9 +44,6 @@ def coefficient_formulas(bicycle: Bicycle, *, model: Model = "refined") -> Coeff
 
 
 def _letters(bicycle: Bicycle, varied: Sequence[str], model: Model) -> SimpleNamespace:
-    if bicycle.gains:
-        problem = f"the bicycle {bicycle.name!r} has feedback, which exact formulas do not know"
-        raise InputError(problem, hint="leave its gains out")
     variables = (*DESIGN, *varied)
     number = len(variables)
 
@@ -61,6 +57,7 @@ def _letters(bicycle: Bicycle, varied: Sequence[str], model: Model) -> SimpleNam
     if bicycle.bodies:
         numbers = reduced(numbers)
     p = {name: x if isinstance(x, Ratio) else constant(x) for name, x in numbers.items()}
+    p |= {name: constant(gain) for name, gain in bicycle.gains}
     for i in "12":
         if not p[f"C{i}"].top:  # what never spins may be a skate, without a radius
             p[f"R{i}"] = constant(1)

@@ -5,26 +5,32 @@ Coefficients go over as two doubles each, nearest to the exact fractions.
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 from bikestab.algebra import Polynomial
 from bikestab.bicycle import Bicycle
 from bikestab.formulas import coefficient_formulas, table_formulas
+from bikestab.gains import rate_and_power
 from bikestab.letters import Model
 from bikestab.presets import preset_names
 
 Formula = list[list[float]]
-_SPEEDS = 4  # powers of V in the table
+_SPEEDS = 4  # powers of V in the table of a machine without feedback
 
 
 def machine_record(bicycle: Bicycle, model: Model) -> dict[str, Any]:
-    """A machine as page/table.js takes it: formulas are lists of (powers of sin λ, cos λ, σ, value, rest)."""
+    """A machine as page/table.mjs takes it: formulas are lists of (powers of sin λ, cos λ, σ, value, rest).
+
+    Where gains are in proportion to 1/V, the whole table is times V.
+    """
     table = table_formulas(bicycle, model=model).entries
+    lowest = min(j for _, j in table)
     return {
         "name": bicycle.name,
         "source": bicycle.source,
         "command": command_options(bicycle, model),
-        "table": [[_formula(table.get((k, j))) for j in range(_SPEEDS)] for k in range(5)],
+        "table": [[_formula(table.get((k, j))) for j in range(lowest, _SPEEDS)] for k in range(5)],
         "motion": _motion(bicycle, model),
         "own": None if bicycle.lam is None or bicycle.sigma is None else [bicycle.lam, bicycle.sigma],
         "delta": bicycle.delta,
@@ -62,18 +68,25 @@ def _alike(one: Bicycle, other: Bicycle) -> bool:
 def _motion(bicycle: Bicycle, model: Model) -> dict[str, list[list[Formula]]]:
     """M q'' + (C0 + V C1) q' + (K0 + V² K2) q = 0 with q = (roll, steer), each times the wheelbase.
 
-    The signs are those of Meijaard et al. (2007), equation (5.3); the entries are those of (1.5).
+    The signs are those of Meijaard et al. (2007), equation (5.3); the entries are those of (1.5). Gains add
+    to what their power of V is named by, K1 or K-1 among them.
     """
     n = coefficient_formulas(bicycle, model=model)
     zero = Polynomial(n.a0.number, {})
     damping = Polynomial.constant(n.a0.number, bicycle.c * bicycle.delta)
     matrices = {
-        "M": ((n.a0, n.a2), (n.b4, n.b0)),
-        "C0": ((zero, zero), (zero, damping)),
-        "C1": ((zero, n.a3), (-n.b5, n.b1)),
-        "K0": ((-n.a1, -n.a4), (-n.b6, -n.b3)),
-        "K2": ((zero, n.a5), (zero, n.b2)),
+        "M": [[n.a0, n.a2], [n.b4, n.b0]],
+        "C0": [[zero, zero], [zero, damping]],
+        "C1": [[zero, n.a3], [-n.b5, n.b1]],
+        "K0": [[-n.a1, -n.a4], [-n.b6, -n.b3]],
+        "K2": [[zero, n.a5], [zero, n.b2]],
     }
+    for name, gain in bicycle.gains:
+        of_roll, rate, power = rate_and_power(name)
+        torque = matrices.setdefault(f"{'KC'[rate]}{power}", [[zero, zero], [zero, zero]])[1]
+        added = Polynomial.constant(n.a0.number, Fraction(bicycle.c) * Fraction(gain))
+        column = 0 if of_roll else 1
+        torque[column] = torque[column] + added
     return {name: [[_formula(entry) for entry in row] for row in matrix] for name, matrix in matrices.items()}
 
 

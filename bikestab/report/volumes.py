@@ -44,8 +44,11 @@ def volume_record(volume: Volume) -> dict[str, Any]:
     too many machines.
     """
     if volume.axes != AXES:
-        problem = f"has a grid over {volume.axes[0]} and {volume.axes[1]}, and a page is of tilt and trail"
-        raise InputError(problem, place=str(volume.path), hint="scan over lam and sigma")
+        x, y, _ = volume.axes
+        others = " and ".join(name for name in (x, y) if name not in AXES)
+        problem = f"has a grid over {x} and {y}, and a page is of tilt and trail"
+        hint = f"scan over lam and sigma with a sweep of a few values of {others}, which become sliders"
+        raise InputError(problem, place=str(volume.path), hint=hint)
     check_ranges(volume, AXES, "a page")
     machines = list(product(*(values.tolist() for values in volume.swept.values())))
     if len(machines) > MOST_MACHINES:

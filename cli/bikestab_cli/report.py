@@ -23,7 +23,7 @@ def command(volumes: tuple[str, ...], output: str) -> None:
     the machine's equations. Several volumes are tabs of one page, and its table compares them; the axes of a
     sweep are sliders.
 
-    Each VOLUME is a volume.h5 or its folder, over tilt and trail and of a machine without feedback.
+    Each VOLUME is a volume.h5 or its folder, over tilt and trail; of other parameters sweep a few values.
     Needs the extra: pip install "bikestab[report]".
 
     \b

@@ -117,7 +117,7 @@ def _load(
 
 
 def _check_exact(config: ScanConfig, option: str) -> None:
-    """Raise InputError where the formulas that proofs and the page are made of do not know the machines."""
+    """Raise InputError where proofs and the page do not know what the config is of."""
     from bikestab.errors import InputError
     from bikestab.fields import AXES
 
@@ -127,8 +127,8 @@ def _check_exact(config: ScanConfig, option: str) -> None:
         raise InputError(
             f"the grid is over {x} and {y}, and {option} takes lam and sigma", key=("grid",), hint=hint
         )
-    if any(member.bicycle.gains for member in config.members):
-        raise InputError(f"has feedback, which {option} does not know", key=("bicycle",), hint=hint)
+    if option == "--certify" and config.machine.gains:
+        raise InputError("has feedback, which --certify does not know", key=("bicycle",), hint=hint)
     if option == "--certify" and config.axes:
         raise InputError("--certify takes one machine, and there is a sweep", key=("sweep",), hint=hint)
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import bikestab as bs
+from bikestab.config.file import load_config
 from bikestab.model import canonical_matrices, characteristic_table
 from bikestab.presets import preset_names
 from bikestab.report.machines import command_options, machine_record
@@ -22,10 +23,22 @@ def value(formula, lam, sigma):
     return float(total)
 
 
-@pytest.mark.parametrize("name", preset_names())
+ASSISTED = load_config("configs/steer_assist.yaml").machine
+GAINS = {
+    "k_phi": 3.0, "k_phidot": -20.0, "k_delta": 1.5, "k_deltadot": 2.0,
+    "k_phi_V": -0.4, "k_phidot_V": 1.1, "k_delta_V": 0.7, "k_deltadot_V": -0.3,
+}  # fmt: skip
+MACHINES = [
+    *(bs.Bicycle.preset(name) for name in preset_names()),
+    ASSISTED,
+    ASSISTED.replaced(GAINS),
+    bs.Bicycle.preset("dikarev1981").replaced(GAINS),
+]
+
+
+@pytest.mark.parametrize("bicycle", MACHINES, ids=lambda one: one.name)
 @pytest.mark.parametrize("model", ["refined", "unrefined"])
-def test_formulas_give_the_table(name, model):
-    bicycle = bs.Bicycle.preset(name)
+def test_formulas_give_the_table(bicycle, model):
     record = machine_record(bicycle, model)
     for lam, sigma in DESIGNS:
         table = characteristic_table(bicycle, lam, sigma, model=model)
@@ -48,17 +61,23 @@ def test_formulas_of_the_motion_are_the_matrices_of_the_benchmark_paper(name):
         assert mine["C0"] == pytest.approx(np.array([[0, 0], [0, bicycle.delta]]))
 
 
-@pytest.mark.parametrize("name", preset_names())
-def test_the_motion_has_the_eigenvalues_of_the_table(name):
-    bicycle = bs.Bicycle.preset(name)
+def at_speed(motion, kind, lam, sigma, V):
+    """M, or the factors of rates (C) or angles (K) at a speed."""
+    total = np.zeros((2, 2))
+    for key, matrix in motion.items():
+        if key[0] == kind:
+            power = int(key[1:] or 0)
+            total += V**power * np.array([[value(entry, lam, sigma) for entry in row] for row in matrix])
+    return total
+
+
+@pytest.mark.parametrize("bicycle", MACHINES, ids=lambda one: one.name)
+def test_the_motion_has_the_eigenvalues_of_the_table(bicycle):
     motion = machine_record(bicycle, "refined")["motion"]
     for lam, sigma in ((0.2, 0.08), (0.31, 0.0784), (1.2, 0.3)):
         for V in (0.5, 5.0, 20.0):
-            M, C0, C1, K0, K2 = (
-                np.array([[value(entry, lam, sigma) for entry in row] for row in motion[key]])
-                for key in ("M", "C0", "C1", "K0", "K2")
-            )
-            lower = [-np.linalg.solve(M, K0 + V * V * K2), -np.linalg.solve(M, C0 + V * C1)]
+            M, C, K = (at_speed(motion, kind, lam, sigma, V) for kind in "MCK")
+            lower = [-np.linalg.solve(M, K), -np.linalg.solve(M, C)]
             A = np.block([[np.zeros((2, 2)), np.eye(2)], lower])
             mine = np.poly(np.linalg.eigvals(A))
             right = np.poly(bs.eigenvalues(bicycle, V, lam=lam, sigma=sigma))

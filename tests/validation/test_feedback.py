@@ -13,9 +13,7 @@ import bikestab as bs
 from bikestab.bicycle import Bicycle
 from bikestab.config.expectations import outcomes
 from bikestab.config.file import load_config
-from bikestab.errors import InputError
 from bikestab.family import Family
-from bikestab.formulas import table_formulas
 from bikestab.gains import GAINS
 from bikestab.model import canonical_matrices, characteristic_table, exact_table
 from bikestab.region.curves import trace
@@ -145,7 +143,5 @@ def test_the_published_steer_assist():
     np.testing.assert_array_equal(growth(config.machine, V) < 0, [False, True, True, False])
 
 
-def test_what_does_not_know_feedback_says_so():
-    with pytest.raises(InputError, match="has feedback, which exact formulas do not know"):
-        table_formulas(BENCHMARK.replaced({"k_phi": 1.0}))
+def test_a_gain_of_zero_is_none():
     assert BENCHMARK.replaced({"k_phi": 0.0}) == BENCHMARK

@@ -29,6 +29,7 @@ export function layout(more) {
 export async function react(at, traces, how, config = CONFIG) {
   await plotly().react(at, traces, how, config);
   at.style.setProperty("--wide", `${at.clientWidth}px`);
+  at.style.setProperty("--tall", `${at.clientHeight}px`);
   at.style.setProperty("--shrink", String(PRINTED / at.clientWidth));
 }
 

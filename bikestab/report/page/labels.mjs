@@ -67,7 +67,9 @@ export function around(machine, { table, chosen }, volumes) {
 export function about({ title, model, version, warnings }, machine, by) {
   const damping = machine.delta ? `damping ${machine.delta} kg m²/s` : "no damping";
   element("title").textContent = title;
-  element("subtitle").textContent = `${machine.name}, ${model} model, ${damping}`;
+  const gains = Object.entries(machine.parameters).filter(([name]) => name.startsWith("k_"));
+  const feedback = gains.length ? `, steer torque by feedback: ${gains.map(([name, value]) => `${name} = ${value}`).join(", ")}` : "";
+  element("subtitle").textContent = `${machine.name}, ${model} model, ${damping}${feedback}`;
   tell("warnings", "p", warnings.map((text) => `Warning: ${text}`));
   const known = Object.entries(machine.parameters).filter(([, value]) => value !== null);
   fill(element("parameters"), known.map(([name, value]) => [name, String(value)]));

@@ -1,6 +1,7 @@
 // (machine, λ, σ, V) → the motion after a push: roll, steer and path, by the matrix exponential.
 //
-// M q'' + (C0 + V C1) q' + (K0 + V² K2) q = 0 with q = (roll, steer) in the signs of Meijaard et al. (2007).
+// M q'' + (C0 + V C1) q' + (K0 + V² K2) q = 0 with q = (roll, steer) in the signs of Meijaard et al. (2007), and
+// what feedback adds.
 
 import { evaluated, powersOf } from "./table.mjs";
 
@@ -13,12 +14,14 @@ import { evaluated, powersOf } from "./table.mjs";
  */
 export function stateMatrix(machine, lam, sigma, V) {
   const powers = powersOf(lam, sigma);
-  const [M, C0, C1, K0, K2] = /** @type {const} */ (["M", "C0", "C1", "K0", "K2"]).map((name) =>
-    machine.motion[name].map((row) => row.map((formula) => evaluated(formula, powers)[0])));
+  const found = Object.entries(machine.motion).map(([name, matrix]) =>
+    /** @type {const} */ ([name, matrix.map((row) => row.map((formula) => evaluated(formula, powers)[0]))]));
+  /** @param {string} kind */
+  const sum = (kind) => found.filter(([name]) => name[0] === kind).reduce((total, [name, matrix]) =>
+    total.map((row, i) => row.map((x, j) => x + V ** Number(name.slice(1)) * matrix[i][j])), [[0, 0], [0, 0]]);
+  const [M, C, K] = [sum("M"), sum("C"), sum("K")];
   const det = M[0][0] * M[1][1] - M[0][1] * M[1][0];
   const inverse = [[M[1][1] / det, -M[0][1] / det], [-M[1][0] / det, M[0][0] / det]];
-  const C = C0.map((row, i) => row.map((x, j) => x + V * C1[i][j]));
-  const K = K0.map((row, i) => row.map((x, j) => x + V * V * K2[i][j]));
   const lower = inverse.map((row) => [K, C].flatMap((X) => [0, 1].map((j) => -(row[0] * X[0][j] + row[1] * X[1][j]))));
   return [[0, 0, 1, 0], [0, 0, 0, 1], ...lower];
 }

@@ -11,7 +11,7 @@ import { add, multiply, sineCosine, twofold } from "./twofold.mjs";
  * @property {string} name
  * @property {string} command options of the command line that mean this machine
  * @property {Formula[][]} table [k][j]
- * @property {{ M: Formula[][], C0: Formula[][], C1: Formula[][], K0: Formula[][], K2: Formula[][] }} motion
+ * @property {Record<string, Formula[][]>} motion M, and Cn and Kn: what is times V^n and the rates or angles
  * @property {number} c wheelbase [m]
  * @property {number} R1 rear wheel's radius [m]
  * @property {number} R2 front wheel's radius [m]
