@@ -57,7 +57,8 @@ def test_other_grids_feedback_and_sweeps_are_refused_before_a_scan(bikestab):
         code, _, err = bikestab("scan", text, "--set", "output=here", option)
         assert code == 2
         assert f"the grid is over k_phidot and k_deltadot, and {option} takes lam and sigma" in err
-    grid = "grid={lam: {start: 0.2, stop: 0.3, num: 3}, sigma: {start: 0, stop: 0.1, num: 3}, V: {start: 0, stop: 9, num: 3}}"
+    axes = "lam: {values: [0.2, 0.3]}, sigma: {values: [0, 0.1]}, V: {values: [0, 9]}"
+    grid = f"grid={{{axes}}}"
     sets = ["--set", grid, "--set", "slices=[]", "--set", "output=here"]
     code, _, err = bikestab("scan", text, *sets, "--certify")
     assert code == 2
