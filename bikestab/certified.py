@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
-from bikestab.certify.proof import prove
+from bikestab.certify.box import box_of
 from bikestab.certify.search import UNDECIDED
 from bikestab.errors import InputError
 from bikestab.fields import AXES, COORDINATES
@@ -21,6 +21,7 @@ from bikestab.files import written
 from bikestab.layout import CERTIFIED, cell_axis
 from bikestab.letters import Model
 from bikestab.model import Floats
+from bikestab.proving import prove_in_parts
 from bikestab.scan.labels import describe, flags
 from bikestab.scan.sink import Sink
 from bikestab.volume import Volume
@@ -29,10 +30,12 @@ _CHUNK = 64  # cells along each axis
 
 
 def add_certified(
-    path: Path, bicycle: Bicycle, model: Model, progress: Callable[[float], None] | None = None
-) -> int:
-    """Prove the cells of a volume, and write what they are into it, unless that is there.
+    path: Path, bicycle: Bicycle, model: Model, progress: Callable[[float], None] = lambda share: None,
+    jobs: int | None = None,
+) -> int:  # fmt: skip
+    """Prove the cells of a volume and write what they are into it, unless that is there.
 
+    ``jobs`` processes prove; what is finished is kept beside it until then, in a file that ends in .proofs.
     Returns how many cells stay undecided because ``stable``, which doubles rounded, says otherwise at their
     corners. Raises InputError for volumes of sweeps and of other axes than λ and σ.
     """
@@ -43,7 +46,10 @@ def add_certified(
             hint = "leave out --certify, or the sweep"
             raise InputError("a proof is of one machine, over lam and sigma", place=str(path), hint=hint)
         axes = [volume.axis(name) for name in AXES]
-        cells = prove(bicycle, *map(edges_of, axes), model=model, progress=progress).cells
+        lam, sigma, V = map(edges_of, axes)
+        box = box_of(bicycle, lam, sigma, V, model, {})
+        keep = path.with_name(path.name + ".proofs")
+        cells = prove_in_parts(box, jobs=jobs, keep=keep, progress=progress).cells
         denied = 0
         if "stable" in volume.fields:
             denied_cells = contradicted(cells, volume.read("stable"))

@@ -116,6 +116,7 @@ class Proof:
             "proved_unstable": unstable,
             "undecided": undecided,
             "undecided_by_halving": list(self.decided.halvings),
+            "stopped": self.decided.stopped,
             "counterexample": self.counterexample(),
         }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -21,13 +21,15 @@ _SIZE = 1 << 17  # numbers worked on at a time, which fit the cache
 class Decided(NamedTuple):
     """Blocks that together are all cells, each once, and a verdict on each.
 
-    ``halvings`` is which part of the cells was undecided before each halving of blocks, and at the end.
+    ``halvings`` is which part of the cells was undecided before each halving of blocks, and at the end;
+    ``stopped`` tells that it ended before, at a limit of work.
     """
 
     cells: tuple[int, ...]
     blocks: Blocks
     verdicts: NDArray[np.uint8]
     halvings: tuple[float, ...]
+    stopped: bool = False
 
     def on_cells(self) -> NDArray[np.uint8]:
         """The verdict on each cell."""
@@ -88,33 +90,50 @@ class Prover:
 
 
 def search(
-    prover: Decides, *, most_blocks: int = 1 << 62, only_stable: bool = False,
+    prover: Decides, start: Blocks | None = None, *, most_blocks: int = 1 << 62, only_stable: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Decided:  # fmt: skip
-    """Decide blocks, from the whole box down to single cells; at most ``most_blocks`` are looked at.
+    """Decide blocks, from the whole box down to single cells, or from one block at the ``start``.
 
+    No halving begins after ``most_blocks`` were looked at; what is open then stays undecided.
     With ``only_stable`` the search ends when a block is unstable, or a cell undecided.
     """
     cells = prover.grid.cells
-    blocks = np.array([[(0, number) for number in cells]])
+    blocks = np.array([[(0, number) for number in cells]]) if start is None else start
+    all_cells = float(_sizes(blocks).sum())
     positive = np.zeros((1, len(ORDER)), bool)
     done: list[Blocks] = []
     verdicts: list[NDArray[np.uint8]] = []
-    looked_at, halvings = 0, []
+    looked_at, left, stopped, halvings = 0, 0, False, []
     while len(blocks):
         looked_at += len(blocks)
         found = prover.verdicts(blocks, positive)
         final = (found != UNDECIDED) | np.all(blocks[:, :, 1] - blocks[:, :, 0] == 1, axis=1)
         spoiled = only_stable and np.any((found == UNSTABLE) | (final & (found == UNDECIDED)))
         if looked_at >= most_blocks or spoiled:
+            stopped = not final.all()
             final[:] = True
-        halvings.append(float(_sizes(blocks[found == UNDECIDED]).sum() / np.prod(cells, dtype=float)))
+        halvings.append(float((left + _sizes(blocks[found == UNDECIDED]).sum()) / all_cells))
+        left += int(
+            _sizes(blocks[final & (found == UNDECIDED)]).sum()
+        )  # cells, some of them sooner than others
         done.append(blocks[final])
         verdicts.append(found[final])
         blocks, positive = _divided(blocks[~final], positive[~final])
         if progress:
-            progress(1 - _sizes(blocks).sum() / np.prod(cells, dtype=float))
-    return Decided(cells, np.concatenate(done), np.concatenate(verdicts), tuple(halvings))
+            progress(1 - _sizes(blocks).sum() / all_cells)
+    return Decided(cells, np.concatenate(done), np.concatenate(verdicts), tuple(halvings), stopped)
+
+
+def joined(parts: Sequence[Decided]) -> Decided:
+    """What was decided of parts that together are all cells, as one."""
+    first, most = parts[0], max(len(part.halvings) for part in parts)
+    sizes = np.array([_sizes(part.blocks).sum() for part in parts], dtype=float)
+    levels = [part.halvings + part.halvings[-1:] * (most - len(part.halvings)) for part in parts]
+    halvings = tuple((sizes @ np.array(levels) / sizes.sum()).tolist())
+    blocks = np.concatenate([part.blocks for part in parts])
+    verdicts = np.concatenate([part.verdicts for part in parts])
+    return Decided(first.cells, blocks, verdicts, halvings, any(part.stopped for part in parts))
 
 
 def _sizes(blocks: Blocks) -> NDArray[np.int64]:

@@ -1,4 +1,4 @@
-"""Tiles → finished tiles: in this process, or in processes of this machine. ``cluster`` has other machines.
+"""Tiles → finished tiles: in this process, or in processes of this machine, which do other work too.
 
 Threads gain nothing here: numpy's calls on tiles that fit the cache take some 10 µs, and a thread that waits
 for the interpreter's lock is woken only after several of these.
@@ -13,13 +13,13 @@ import sys
 import threading
 import traceback
 from collections import deque
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from queue import SimpleQueue
 from types import ModuleType
-from typing import cast
+from typing import Any, cast
 
 from bikestab.aside import cores as cores
 from bikestab.errors import WorkersLost
@@ -34,14 +34,17 @@ def in_turn(tiles: Iterable[Numbered]) -> Generator[tuple[int, Finished]]:
         yield number, compute(tile)
 
 
-def in_processes(tiles: Iterable[Numbered], jobs: int) -> Generator[tuple[int, Finished]]:
+def in_processes(
+    tiles: Iterable[tuple[int, Any]], jobs: int, work: Callable[[Any], Any] = compute
+) -> Generator[tuple[int, Any]]:
     """Compute tiles in ``jobs`` processes, in any order. WorkersLost if one of them dies.
 
+    ``work`` is a module's function, for what else is to be computed in parts that can be pickled.
     Each has one tile at work and one in reserve, no more: they hold memory.
     """
     todo = iter(tiles)
     with ExitStack() as stack:
-        workers = {stack.enter_context(_worker()): deque[int]() for _ in range(jobs)}
+        workers = {stack.enter_context(_worker(work)): deque[int]() for _ in range(jobs)}
         try:
             for worker in 2 * list(workers):
                 _hand(worker, todo, workers)
@@ -57,7 +60,7 @@ def in_processes(tiles: Iterable[Numbered], jobs: int) -> Generator[tuple[int, F
             raise WorkersLost("a worker process died; perhaps the memory is full") from None
 
 
-def _hand(worker: Connection, todo: Iterator[Numbered], workers: dict[Connection, deque[int]]) -> None:
+def _hand(worker: Connection, todo: Iterator[tuple[int, Any]], workers: dict[Connection, deque[int]]) -> None:
     for number, tile in todo:
         worker.send(tile)
         workers[worker].append(number)
@@ -65,11 +68,11 @@ def _hand(worker: Connection, todo: Iterator[Numbered], workers: dict[Connection
 
 
 @contextmanager
-def _worker() -> Iterator[Connection]:
-    """A process that answers each tile with what ``compute`` makes of it."""
+def _worker(work: Callable[[Any], Any]) -> Iterator[Connection]:
+    """A process that answers each tile with what ``work`` makes of it."""
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
-    process = context.Process(target=_serve, args=(theirs,), daemon=True)
+    process = context.Process(target=_serve, args=(theirs, work), daemon=True)
     try:
         with undisturbed():
             process.start()
@@ -111,15 +114,15 @@ def without_script() -> Iterator[None]:
         sys.modules["__main__"] = main
 
 
-def _serve(parent: Connection) -> None:
+def _serve(parent: Connection, work: Callable[[Any], Any]) -> None:
     """What a worker process does, until nobody is there any more who wants it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    tiles: SimpleQueue[Tile] = SimpleQueue()
+    tiles: SimpleQueue[Any] = SimpleQueue()
     threading.Thread(target=_receive, args=(parent, tiles), daemon=True).start()
     while True:
-        answer: Finished | Exception
+        answer: Any
         try:
-            answer = compute(tiles.get())
+            answer = work(tiles.get())
         except Exception as error:  # whatever it is, the parent tells of it
             error.add_note(traceback.format_exc())
             answer = error
@@ -129,7 +132,7 @@ def _serve(parent: Connection) -> None:
             os._exit(0)
 
 
-def _receive(parent: Connection, tiles: SimpleQueue[Tile]) -> None:
+def _receive(parent: Connection, tiles: SimpleQueue[Any]) -> None:
     """Take tiles while others are computed, so that the parent never has to wait before it can go on."""
     try:
         while True:

@@ -27,8 +27,8 @@ try:
 except ImportError:  # pragma: no cover  # Windows has no such lock: nobody then hinders a second scan
     fcntl = None  # type: ignore[assignment]
 
-_KIND = b"bikestab tiles "
-_MAGIC = _KIND + b"4 "  # other builds have other numbers: what they keep of a tile is not the same
+MARK = b"bikestab tiles "
+_MAGIC = MARK + b"4 "  # other builds have other numbers: what they keep of a tile is not the same
 _HEAD = struct.Struct("<QIQ")  # number of the tile, lengths of its notes and data
 _SUM = struct.Struct("<I")  # checksum of all three
 _NO_LOCKS = {errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK}  # some network disks
@@ -131,7 +131,7 @@ class Spool:
         line = self._file.readline(1 << 16)  # someone else's file may have none
         if line != first and replace:
             return False
-        if line.startswith(_KIND) and line[: len(_MAGIC)] != _MAGIC[: len(line)]:
+        if line.startswith(MARK) and line[: len(_MAGIC)] != _MAGIC[: len(line)]:
             problem = f"{self.path} has tiles that another version of bikestab left unfinished"
             hint = "finish that scan with it, choose another output, or drop them with --force"
             raise InputError(problem, key=("output",), hint=hint)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from math import prod
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -20,7 +22,7 @@ from bikestab_cli.options import (
     of_file,
     told_as_options,
 )  # fmt: skip
-from bikestab_cli.output import heading, print_json, tell_file
+from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.progress import progress
 from bikestab_cli.tolerances import tolerances_of, with_design
 
@@ -29,6 +31,7 @@ from bikestab.units import DAMPING
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
+    from bikestab.certify.box import Box
     from bikestab.certify.proof import Proof
     from bikestab.model import Model
 
@@ -70,6 +73,18 @@ LONG = 200  # blocks; their check is announced
     help="Cells along each axis that has two ends.",
 )
 @click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="How many processes compute; by default one for each core, if it takes long.",
+)
+@click.option(
+    "--work",
+    type=click.IntRange(min=1),
+    metavar="BLOCKS",
+    help="Look at about so many blocks of cells, and leave what is open undecided.",
+)
+@click.option(
     "-o", "--certificate", type=FILE, metavar="FILE", help="Write the proof for a checker, as JSON."
 )
 @click.option("--verify", type=NAME, metavar="FILE", help="Check a certificate, and nothing else.")
@@ -77,8 +92,8 @@ LONG = 200  # blocks; their check is announced
 @json_option
 def command(
     config: str | None, given: Given, speed: Ends | None, bicycle_name: str | None, delta: float | None,
-    model: Model | None, tolerance: tuple[str, ...], cells: int, certificate: str | None,
-    verify: str | None, quiet: bool, as_json: bool,
+    model: Model | None, tolerance: tuple[str, ...], cells: int, jobs: int | None, work: int | None,
+    certificate: str | None, verify: str | None, quiet: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Prove a box of designs and speeds stable or unstable.
 
@@ -88,6 +103,8 @@ def command(
     boundary in them. The numbers are the
     exact doubles that are given; all rounding is bounded. With --tolerance a cell is proved for all
     machines in the range; one of head_angle, trail, offset, lam or sigma is a side of the box.
+
+    With -o a proof that is stopped loses nothing that was finished: the same command goes on from there.
 
     The verdict is stable, unstable, mixed (both are there for certain) or undecided; the exit code
     is 0 for each of them.
@@ -109,7 +126,7 @@ def command(
             _verify(verify, quiet)
         return
     from bikestab import __version__
-    from bikestab.certify.proof import prove
+    from bikestab.certify.box import box_of
 
     check_files(certificate)
     given, texts = with_design(given, tolerance)
@@ -122,13 +139,10 @@ def command(
         bicycle = load_bicycle(bicycle_name or DEFAULT_BICYCLE, delta)
         ends = _of_options(bicycle, given, speed)
     edges = {name: _edges(name, pair, cells) for name, pair in ends.items()}
-    with told_as_options(), progress("certify", quiet) as show:
-        show(0, 10**6)
-        proof = prove(
-            bicycle, *(edges[name] for name in ("lam", "sigma", "V")), model=model or "refined",
-            tolerances=tolerances_of(texts, bicycle),
-            progress=lambda share: show(int(1e6 * share), 10**6),
-        )  # fmt: skip
+    with told_as_options():
+        sides = edges["lam"], edges["sigma"], edges["V"]
+        box = box_of(bicycle, *sides, model or "refined", tolerances_of(texts, bicycle))
+    proof = _proof(box, jobs, work, certificate, quiet)
     if certificate:
         from bikestab.files import written
 
@@ -138,7 +152,30 @@ def command(
     if as_json:
         print_json(proof.record())
     else:
-        click.echo(_words(proof))
+        from bikestab_cli.certify_words import told
+
+        click.echo(told(proof))
+
+
+def _proof(box: Box, jobs: int | None, work: int | None, certificate: str | None, quiet: bool) -> Proof:
+    """Prove it; where that is stopped, parts that are finished are kept beside the certificate."""
+    from bikestab.files import to_stdout
+    from bikestab.proving import prove_in_parts
+
+    keep = None
+    if certificate and not to_stdout(certificate) and not Path(certificate).is_char_device():
+        keep = Path(f"{certificate}.parts")
+    cells = prod(len(edges) - 1 for edges in box.edges)
+    try:
+        with progress("certify", quiet, "cells") as show:
+            return prove_in_parts(
+                box, jobs=jobs, most_blocks=work, keep=keep,
+                progress=lambda share: show(int(cells * share), cells),
+            )  # fmt: skip
+    except KeyboardInterrupt:
+        kept = keep is not None and keep.exists()
+        hint = "certify: what is finished is kept; the same command goes on from there" if kept else ""
+        raise KeyboardInterrupt(hint) from None
 
 
 def _edges(name: str, ends: Ends, cells: int) -> Any:
@@ -179,34 +216,7 @@ def _of_config(name: str) -> tuple[Bicycle, Model, dict[str, Ends]]:
     return config.machine, config.model, {axis: config.grid.ends(axis) for axis in ("lam", "sigma", "V")}
 
 
-def _words(proof: Proof) -> str:
-    record = proof.record()
-    box = ", ".join(f"{name} {low:.6g} ... {high:.6g}" for name, (low, high) in record["box"].items())
-    lines = [
-        heading(proof.bicycle, proof.box.model),
-        f"box: {box}",
-        f"verdict: {record['verdict']}, by {record['method']}",
-        f"proved stable    {100 * record['proved_stable']:8.4f} %",
-        f"proved unstable  {100 * record['proved_unstable']:8.4f} %",
-        f"undecided        {100 * record['undecided']:8.4f} %",
-    ]
-    if point := record["counterexample"]:
-        where = f"λ = {point['lam']:.6g}, σ = {point['sigma']:.6g}, V = {point['V']:.6g} m/s"
-        where += "".join(f", {name} = {value:.6g}" for name, value in point.get("set", {}).items())
-        grows = max(real for real, _ in point["eigenvalues"])
-        lines.append(f"not stable at {where}, where it grows at {grows:.4g} 1/s")
-    if record["undecided"]:
-        last = ", ".join(f"{100 * share:.3g}" for share in record["undecided_by_halving"][-3:])
-        lines.append(
-            f"undecided blocks from halving to halving: {last} %; twice as many --cells\n"
-            f"  leave about {50 * record['undecided']:.3g} %: cells with the boundary in them"
-        )
-    return "\n".join(lines)
-
-
 def _verify(name: str, quiet: bool) -> None:
-    from math import prod
-
     from bikestab.certify.checker import Refuted, check
     from bikestab.texts import read_text
 

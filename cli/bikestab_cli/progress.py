@@ -14,7 +14,7 @@ TERMINAL, LOG = 0.1, 30.0  # s between two reports
 
 
 @contextmanager
-def progress(name: str, quiet: bool) -> Iterator[Callable[[int, int], None]]:
+def progress(name: str, quiet: bool, what: str = "points") -> Iterator[Callable[[int, int], None]]:
     """A function that takes the points done so far and all, and tells of them on stderr."""
     name = visible(name)
     terminal = sys.stderr is not None and sys.stderr.isatty()
@@ -32,10 +32,10 @@ def progress(name: str, quiet: bool) -> Iterator[Callable[[int, int], None]]:
         if quiet or now - last < (TERMINAL if terminal else LOG):
             return
         last, shown = now, True
-        line = f"{name}: {_percent(done, points)} of {_short(points)} points"
+        line = f"{name}: {_percent(done, points)} of {_short(points)} {what}"
         if done > first:
             rate = (done - first) / (now - begin)
-            line += f", {_short(rate)} points/s, {_time((points - done) / rate)} left"
+            line += f", {_short(rate)} {what}/s, {_time((points - done) / rate)} left"
         # a line that is wrapped would not be written over
         _tell(f"\r{line[: _width() - 1]}\x1b[K" if terminal else f"{line}\n")
 

@@ -7,6 +7,7 @@ import sys
 import time
 from contextlib import suppress
 from functools import partial
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -79,7 +80,7 @@ def command(
             with of_file(name):
                 result, pictures = _run(name, config, force, jobs, scheduler or "", quiet)
                 if certify:
-                    _certify(name, config, result.path, quiet)
+                    _certify(name, config, result.path, jobs, quiet)
                 if certify or not result.computed:
                     pictures += write_proofs(config, result.path)
                 page = _page(result.path) if report else None
@@ -174,12 +175,13 @@ def _run(
         return result, write_pictures(config, result.path, pictures(), partial(click.echo, err=True))
 
 
-def _certify(name: str, config: ScanConfig, volume: Path, quiet: bool) -> None:
+def _certify(name: str, config: ScanConfig, volume: Path, jobs: int | None, quiet: bool) -> None:
     from bikestab.certified import add_certified
 
-    with progress(f"{name}: proofs", quiet) as show:
+    with progress(f"{name}: proofs", quiet, "cells") as show:
+        cells = prod(max(config.grid.size(axis) - 1, 1) for axis in config.grid.names)
         denied = add_certified(
-            volume, config.machine, config.model, lambda share: show(int(1e6 * share), 10**6)
+            volume, config.machine, config.model, lambda share: show(int(cells * share), cells), jobs
         )
     if denied:
         text = f"{denied} cells stay undecided, since rounding makes 'stable' say otherwise at a corner"

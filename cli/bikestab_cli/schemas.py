@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bikestab_cli.eigen_schema import EIGEN
+from bikestab_cli.proof_schema import CERTIFY, LARGEST, PAIR
 from bikestab_cli.shapes import (
     DESIGN,
     ENDS,
@@ -29,8 +30,7 @@ from bikestab_cli.shapes import (
     words,
 )
 
-_PAIR = {"type": "array", "items": NUMBERS, "minItems": 2, "maxItems": 2}
-_MAYBE_PAIR = {"anyOf": [_PAIR, NULL]}
+_MAYBE_PAIR = {"anyOf": [PAIR, NULL]}
 _NEAREST = record(
     "what would help",
     sigma_min=maybe("the nearest larger σ with a stable speed"), sigma_max=maybe("the nearest smaller"),
@@ -98,7 +98,7 @@ _CHANGE = record(
     "description": "whether it is within what is asked; null: not asked"},
 )  # fmt: skip
 _REGION = record(
-    "the stable regions", box=named(_PAIR, "the ends of λ, σ and V"),
+    "the stable regions", box=named(PAIR, "the ends of λ, σ and V"),
     designs=some({"type": "integer"}, "λ, σ"),
     A=num("volume of A's [rad m/s]"), B=num("of B's"), difference=num("of the symmetric difference"),
     union=num("of the union"), share=num("the difference as a share of the union"),
@@ -109,17 +109,6 @@ _ROBUST = record(
     "the design with the largest ball of stable machines", design=_JUDGED,
     radius=num("of the ball, in standard deviations"),
     nearest=named(NUMBERS, "the nearest machine that is not stable, by parameter"),
-)  # fmt: skip
-_LARGEST = record(
-    "with --certified: the largest box that is proved stable; all else but searched is then null or empty",
-    factor=num("of the sides"),
-    sides=named(NUMBERS, "half sides for a factor of 1, by lam [rad], sigma, V [m/s] and parameter"),
-    box=named(_PAIR, "its ends, which are exact"), verdict={"const": "stable"}, method=words("of the proof"),
-    cells=some({"type": "integer"}, "along each axis"),
-    beyond=maybe("the smallest factor without a proof; null: none up to 100"),
-    no_machine={"type": ["string", "null"], "description": "what no machine has at the ends of that"},
-    unstable_from=maybe("the smallest factor at which a corner is known that is not stable"),
-    unstable={"type": ["object", "null"], "description": "that corner and its growth_rate [1/s]"},
 )  # fmt: skip
 _WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")
 _AXIS = record(
@@ -152,15 +141,15 @@ SCHEMAS: dict[str, Schema] = {
         searched={
             **record(
                 "what was asked, the ends of --over by parameter", ("lam", "sigma", "trail", "offset"),
-                lam=_PAIR, sigma=_PAIR, trail=_MAYBE_PAIR, offset=_MAYBE_PAIR,
+                lam=PAIR, sigma=PAIR, trail=_MAYBE_PAIR, offset=_MAYBE_PAIR,
                 V_max=num("intervals count up to here [m/s]"), judged=_MAYBE_PAIR, stable=_MAYBE_PAIR,
             ),
-            "additionalProperties": _PAIR,
+            "additionalProperties": PAIR,
         },
         own=_JUDGED, widest=_JUDGED, lowest_V1=_JUDGED, fastest_decay=_JUDGED,
         pareto=some(_JUDGED, "from the widest to the fastest; empty with --free"), closest=_JUDGED,
         most_robust=either(_ROBUST, NULL, text="with --free; null without --sd"),
-        certified=_LARGEST,
+        certified=LARGEST,
     ),
     "sensitivity": of_machines(
         "a design", **DESIGN, hold={"enum": ["trail", "offset", "sigma"], "description": "what stays"},
@@ -236,19 +225,5 @@ SCHEMAS: dict[str, Schema] = {
             "additionalProperties": maybe(""), "required": ["name", "source", "warnings"],
         }
     ),
-    "certify": {
-        **record(
-            "a proof; one object without results", ("files",), bicycle=words("its name"), model=MODEL,
-            delta=num("steering damping [kg m²/s]"), box=named(_PAIR, "the ends of what varies"),
-            cells=some({"type": "integer"}, "along each"),
-            method={"enum": ["Bernstein coefficients", "centred form"], "description": "how it was proved"},
-            verdict={"enum": ["stable", "unstable", "mixed", "undecided"], "description": "of the whole box"},
-            proved_stable=num("fraction of the box"), proved_unstable=num("fraction"),
-            undecided=num("fraction"),
-            undecided_by_halving=some(
-                num("share"), "of the cells before each halving of blocks, and at the end"
-            ),
-            counterexample={"type": ["object", "null"], "description": "a point that is not as the rest"},
-        ),
-    },
+    "certify": CERTIFY,
 }  # fmt: skip

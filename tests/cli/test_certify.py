@@ -5,7 +5,9 @@ import math
 
 import pytest
 
+import bikestab.proving as proving
 from tests.plot.test_proved import CONFIG
+from tests.test_proving import stopped_after
 
 BOX = ["--bicycle", "meijaard2007", "--lam", "17deg:19deg", "--sigma", "0.07:0.085"]
 KEYS = {"verdict", "proved_stable", "proved_unstable", "undecided", "counterexample"}
@@ -187,3 +189,21 @@ def test_mistakes_of_the_largest_box(bikestab, options, words):
     code, out, err = bikestab("design", *options)
     assert (code, out) == (2, "")
     assert words in err
+
+
+def test_a_proof_that_is_stopped_goes_on(bikestab, tmp_path, monkeypatch):
+    """Ctrl-C between two parts: what is kept is told of, and the certificate is the same in the end."""
+    monkeypatch.setattr(proving, "_SIDE", 5)
+    box = ["--lam", "0:0.3", "--sigma", "0:0.15", "--V", "0:15", "--cells", "10", "--jobs", "1"]
+    path, parts = tmp_path / "proof.json", tmp_path / "proof.json.parts"
+    with stopped_after(3):
+        code, out, err = bikestab("certify", *box, "-o", path)
+    assert (code, out, path.exists(), parts.exists()) == (130, "", False, True)
+    assert "the same command goes on from there" in err
+    assert "going on at 37 %" in bikestab("certify", *box, "-o", path)[2]
+    assert not parts.exists()
+    other = tmp_path / "other.json"
+    assert bikestab("certify", *box, "-o", other)[0] == 0
+    assert path.read_bytes() == other.read_bytes()
+    out = bikestab("certify", *box, "--work", "50")[1]
+    assert "stopped at the limit of --work" in out

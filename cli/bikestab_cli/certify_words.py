@@ -1,0 +1,38 @@
+"""What ``bikestab certify`` prints of a proof."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bikestab_cli.output import heading
+
+if TYPE_CHECKING:
+    from bikestab.certify.proof import Proof
+
+
+def told(proof: Proof) -> str:
+    """The verdict, shares of the box, a point that is not stable, and what smaller cells would leave."""
+    record = proof.record()
+    box = ", ".join(f"{name} {low:.6g} ... {high:.6g}" for name, (low, high) in record["box"].items())
+    lines = [
+        heading(proof.bicycle, proof.box.model),
+        f"box: {box}",
+        f"verdict: {record['verdict']}, by {record['method']}",
+        f"proved stable    {100 * record['proved_stable']:8.4f} %",
+        f"proved unstable  {100 * record['proved_unstable']:8.4f} %",
+        f"undecided        {100 * record['undecided']:8.4f} %",
+    ]
+    if point := record["counterexample"]:
+        where = f"λ = {point['lam']:.6g}, σ = {point['sigma']:.6g}, V = {point['V']:.6g} m/s"
+        where += "".join(f", {name} = {value:.6g}" for name, value in point.get("set", {}).items())
+        grows = max(real for real, _ in point["eigenvalues"])
+        lines.append(f"not stable at {where}, where it grows at {grows:.4g} 1/s")
+    if record["stopped"]:
+        lines.append("stopped at the limit of --work: blocks that are open count as undecided")
+    elif record["undecided"]:
+        last = ", ".join(f"{100 * share:.3g}" for share in record["undecided_by_halving"][-3:])
+        lines.append(
+            f"undecided blocks from halving to halving: {last} %; twice as many --cells\n"
+            f"  leave about {50 * record['undecided']:.3g} %: cells with the boundary in them"
+        )
+    return "\n".join(lines)
