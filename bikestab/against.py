@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple, cast
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
-from bikestab.model import ExactTable, Floats, Model, exact_table
+from bikestab.model import ExactTable, Floats, Model, characteristic_table, exact_table
 from bikestab.modes import Modes, follow
 from bikestab.records import Design, design_record
+from bikestab.routh import conditions
 from bikestab.variants import check_names, check_values, varied
+
+_HALVES = 60  # of a step, down to rounding
 
 
 class Against(NamedTuple):
     """The designs of one machine in which the parameter ``name`` has ``values``: their tables and modes.
 
-    ``tables`` and ``modes`` have one entry for each value, and each of ``modes`` is of one speed.
+    ``tables`` and ``modes`` have one entry for each value, and each of ``modes`` is of one speed. ``stable``
+    has the ranges of values, from the least to the greatest, in which motion at that speed is stable: their
+    ends are zeros of the conditions to rounding; a range or a gap between two zeros of one condition that
+    both lie between two neighbouring values is missed.
     """
 
     name: str
@@ -25,6 +32,7 @@ class Against(NamedTuple):
     designs: list[Design]
     tables: list[ExactTable]
     modes: list[Modes]
+    stable: list[tuple[float, float]]
 
 
 def modes_against(
@@ -41,8 +49,18 @@ def modes_against(
     for value in (min(values), max(values)):
         check_values(bicycle, {**fixed, name: value})
     x = np.asarray(values, dtype=float)
-    machine, lam, sigma = varied(bicycle, {**fixed, name: x})
-    lam, sigma, _ = np.broadcast_arrays(lam, sigma, x)
+
+    def machines(x: Floats) -> tuple[Any, Floats, Floats]:
+        machine, lam, sigma = varied(bicycle, {**fixed, name: x})
+        lam, sigma, _ = np.broadcast_arrays(lam, sigma, x)
+        return machine, lam, sigma
+
+    def signs(x: Floats) -> NDArray[np.bool_]:
+        """Which of the six conditions hold, at (condition, value)."""
+        machine, lam, sigma = machines(x)
+        return np.array(conditions(characteristic_table(machine, lam, sigma, model=model), V)) > 0
+
+    machine, lam, sigma = machines(x)
     table = exact_table(machine, lam, sigma, model=model)
     tables = [ExactTable(*(part[..., i] for part in table)) for i in range(len(x))]
     whole = design_record(lam, sigma, machine)
@@ -50,4 +68,30 @@ def modes_against(
         key: np.broadcast_to(cast("Floats", each), x.shape).tolist() for key, each in whole.items()
     }
     designs = [{key: each[i] for key, each in columns.items()} for i in range(len(x))]
-    return Against(name, x, designs, tables, [follow(each, V) for each in tables])  # type: ignore[arg-type]  # a Design
+    modes = [follow(each, V) for each in tables]
+    return Against(name, x, designs, tables, modes, stable_ranges(signs, x))  # type: ignore[arg-type]  # a Design
+
+
+def stable_ranges(signs: Callable[[Floats], NDArray[np.bool_]], x: Floats) -> list[tuple[float, float]]:
+    """The ranges of a parameter, between the least and the greatest of x, in which all conditions hold.
+
+    ``signs`` gives for values (n,) which conditions hold at (condition, n). Where one changes between two
+    neighbours of x it is halved down to neighbouring doubles.
+    """
+    x = np.unique(x)
+    which, step = np.nonzero(np.diff(signs(x), axis=1)) if len(x) > 1 else (np.empty(0, int),) * 2
+    low, high = x[step], x[step + 1]
+    before = signs(x)[which, step]
+    for _ in range(_HALVES if len(which) else 0):
+        middle = 0.5 * (low + high)
+        as_low = signs(middle)[which, np.arange(len(which))] == before
+        low, high = np.where(as_low, middle, low), np.where(as_low, high, middle)
+    ends = np.unique(np.concatenate([x[[0, -1]], high]))
+    inside: list[bool] = np.all(signs(0.5 * (ends[1:] + ends[:-1])), axis=0).tolist()
+    ranges: list[tuple[float, float]] = []
+    for start, stop, stable in zip(ends[:-1].tolist(), ends[1:].tolist(), inside, strict=True):
+        if stable and ranges and ranges[-1][1] == start:
+            ranges[-1] = ranges[-1][0], stop
+        elif stable:
+            ranges.append((start, stop))
+    return ranges

@@ -22,7 +22,6 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     figure = Figure(figsize=(5.6, 4.4), layout="constrained")
     ax = figure.add_subplot()
     x = found.values
-    growth = np.array([float(modes.eigenvalues.real.max()) for modes in found.modes])
     drawn, oscillates = [], False
     for mode in STYLES:
         parts = [modes.eigenvalues[modes.names == mode] for modes in found.modes]
@@ -39,8 +38,12 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
             imag = [float(np.abs(part.imag).max()) if len(part) else np.nan for part in parts]
             ax.plot(x, imag, color=color, lw=width, ls=DASHES)
     ax.axhline(0, color="k", lw=0.8, zorder=1)
-    ax.fill_between(x, 0, 1, where=growth < 0, transform=ax.get_xaxis_transform(), color=BAND, lw=0, zorder=0)
     ax.set_xlim(x.min(), x.max())
+    for start, stop in found.stable:
+        ax.axvspan(start, stop, color=BAND, lw=0, zorder=0)
+        for end in (start, stop):
+            if x.min() < end < x.max():
+                ax.axvline(end, color="0.3", lw=0.9, ls=":", zorder=1)
     ax.set_yscale("asinh", linear_width=1.0)
     plain_ticks(ax)
     ax.set_xlabel(f"{found.name} [{unit}]")
@@ -48,8 +51,10 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     ax.tick_params(direction="in", top=True, right=True)
     handles: list[Artist] = [*drawn, entry("real part", color="0.3")]
     handles += [entry("|imaginary part|", color="0.3", ls=DASHES)] if oscillates else []
-    if np.any(growth < 0):
+    if found.stable:
         handles.append(Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="stable"))
     legend_below(figure, handles)
-    set_title(ax, f"{short(name)} at {V:g} m/s")
+    ends = ", ".join(f"{start:.6g} to {stop:.6g}" for start, stop in found.stable)
+    where = f"stable for {found.name} = {ends} {unit}" if ends else "nowhere stable"
+    set_title(ax, f"{short(name)}: eigenvalues at {V:g} m/s", where)
     return figure

@@ -19,18 +19,18 @@ def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
     curves = [(name, side.bicycle, *side.design, side.model) for name, side in sides if side.design]
     plane = min(len(box.lam), len(box.sigma)) > 1
     number = bool(curves) + plane
-    figure = Figure(figsize=(6.6 * max(number, 1), 5.0), layout="constrained")
+    figure = Figure(figsize=(6.2, 4.4 * max(number, 1)), layout="constrained")
     if curves:
-        growth_axes(figure.add_subplot(1, number, 1), curves, *box.ends[2])
+        growth_axes(figure.add_subplot(number, 1, 1), curves, *box.ends[2])
     if plane:
-        ax = figure.add_subplot(1, number, number)
+        ax = figure.add_subplot(number, 1, number)
         apart = np.ma.masked_equal(region.apart.T, 0)
         image = ax.pcolormesh(
             box.lam, box.sigma, apart, cmap="cividis", shading="nearest", vmin=0, rasterized=True
         )
         figure.colorbar(image, ax=ax).set_label("speeds at which exactly one is stable [m/s]")
         for (name, side), marker in zip(sides, "os", strict=True):
-            if side.design:
+            if side.design and _holds(box, side.design):
                 ax.plot(*side.design, marker, ms=8, mfc="white", mec="black", clip_on=False)
                 ax.annotate(name[0], side.design, (7, 5), textcoords="offset points", path_effects=HALO)
         ax.set_xlim(*box.ends[0])
@@ -39,3 +39,7 @@ def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
         words = f"Stable regions differ in {100 * region.share:.3g} % of their union"
         set_title(ax, f"{words}; white: no difference")
     return figure
+
+
+def _holds(box: Box, design: tuple[float, float]) -> bool:
+    return all(low <= at <= high for at, (low, high) in zip(design, box.ends[:2], strict=True))

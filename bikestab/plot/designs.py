@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.transforms import ScaledTranslation, Transform
 
 from bikestab.design.best import Best
 from bikestab.design.criteria import Wanted, counted
@@ -19,6 +20,7 @@ from bikestab.design.optimum import place_in_plane
 from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.plot.axes import HALO, label_family, remarks
+from bikestab.plot.colours import OWN
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import draw_on_white, entry, legend_below, straight_fork
 from bikestab.plot.settings import own_settings
@@ -42,6 +44,7 @@ CURVES: dict[str, tuple[str, Any]] = {
     "singular inertia": ("#555555", "-"),
 }
 _OTHER = ("#555555", (0, (2, 1)))
+_APART = 15.0  # points: marks that would cover each other
 _SAMPLES = 241  # per axis
 _STEPS = np.array([0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100])
 
@@ -195,12 +198,14 @@ def _optima(ax: Axes, family: Family, best: Best) -> list[Any]:
     if len(best.pareto) > 2:
         x, y = zip(*(place_in_plane(family, design) for design in best.pareto), strict=True)
         handles += ax.plot(x, y, marker="o", ms=4.5, mfc="white", mew=0.8, label="width-decay front", **frame)
+    taken: list[Floats] = []
     for name, (marker, label, size) in OPTIMA.items():
         design = getattr(best, name)
         if design and design["at"] != "outside the box":
+            place = place_in_plane(family, design)
             handles += ax.plot(
-                *place_in_plane(family, design), marker=marker, ms=size, mew=1.4,
-                mfc="#e8308a" if name == "own" else "white", label=label, **frame,
+                *place, marker=marker, ms=size, mew=1.4, transform=_beside(ax, place, taken),
+                mfc=OWN if name == "own" else "white", label=label, **frame,
             )  # fmt: skip
     if best.closest:
         closest = best.closest
@@ -208,3 +213,19 @@ def _optima(ax: Axes, family: Family, best: Best) -> list[Any]:
             *place_in_plane(family, closest), marker="X", ms=9, mfc="white", mew=1.4, label="closest", **frame
         )
     return handles
+
+
+def _beside(ax: Axes, place: tuple[float, float], taken: list[Floats]) -> Transform:
+    """Where a mark is drawn: at its place, or beside it if a mark is there, tied to it by a line."""
+    figure: Any = ax.figure
+    size = figure.get_size_inches() * ax.get_position().size * 72
+    at = (ax.transData + ax.transAxes.inverted()).transform(place) * size
+    step = _APART if at[0] < size[0] / 2 else -_APART
+    away = 0.0
+    while any(np.hypot(at[0] + away - other[0], at[1] - other[1]) < 0.7 * _APART for other in taken):
+        away += step
+    taken.append(np.array([at[0] + away, at[1]]))
+    if away:
+        line = {"arrowstyle": "-", "color": "black", "lw": 1, "shrinkA": 0, "shrinkB": 0}
+        ax.annotate("", place, (away, 0), textcoords="offset points", arrowprops=line, zorder=4)
+    return ax.transData + ScaledTranslation(away / 72, 0, figure.dpi_scale_trans)

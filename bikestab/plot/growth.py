@@ -20,6 +20,7 @@ from bikestab.speeds import intervals_of
 
 Curve = tuple[str, Bicycle, float, float, Model]  # name, machine, λ [rad], σ, and the equations
 _SAMPLES = 601
+_APART = 0.055  # of the axis: numbers beside it
 _LINEAR = 1.0  # 1/s: below it the scale is linear, where stability is decided
 
 
@@ -55,8 +56,8 @@ def growth_axes(ax: Axes, machines: Sequence[Curve], start: float, stop: float) 
     ax.axhline(0, color="k", lw=0.8, zorder=1)
     ax.set_xlim(start, stop)
     ax.set_yscale("asinh", linear_width=_LINEAR)
-    plain_ticks(ax)
     ax.set_ylim(1.15 * min(low, -0.1), 1.1 * max(high, 0.1))
+    plain_ticks(ax)
     ax.set_xlabel("speed V [m/s]")
     ax.set_ylabel(f"growth rate [s⁻¹]  (scale logarithmic beyond ±{_LINEAR:g})")
     ax.tick_params(direction="in", top=True, right=True)
@@ -65,8 +66,13 @@ def growth_axes(ax: Axes, machines: Sequence[Curve], start: float, stop: float) 
 
 
 def plain_ticks(ax: Axes) -> None:
-    """Numbers at 1, 2 and 5 times powers of ten on an axis that is linear below one and logarithmic above."""
-    steps = [sign * step for step in (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500) for sign in (-1, 1)]
-    ax.yaxis.set_major_locator(FixedLocator([0.0, *steps]))
+    """Numbers that stand apart on an axis with final limits, linear below one and logarithmic above."""
+    low, high = np.arcsinh(ax.get_ylim())
+    ticks = [0.0]
+    for size in (1, 10, 100, 5, 50, 2, 20, 200, 0.5, 0.2):
+        for tick in (size, -size):
+            if np.abs(np.arcsinh(ticks) - np.arcsinh(tick)).min() > _APART * (high - low):
+                ticks.append(tick)
+    ax.yaxis.set_major_locator(FixedLocator(ticks))
     ax.yaxis.set_minor_locator(NullLocator())
     ax.yaxis.set_major_formatter(lambda tick, _: f"{tick:g}".replace("-", "−"))

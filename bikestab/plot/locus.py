@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from bikestab.bicycle import Bicycle
 from bikestab.model import Model, exact_table
 from bikestab.modes import Modes, follow
-from bikestab.plot.axes import HALO
+from bikestab.plot.axes import HALO, remarks
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.modes import STYLES
@@ -42,13 +42,14 @@ def draw_locus(
     drawn = _branches(ax, modes)
     _speeds(ax, modes, start, stop)
     styles = {name: style for name, style in STYLES.items() if name in drawn}
-    legend_below(figure, [entry(n, color=c, lw=w) for n, (c, w) in styles.items()])
+    dot = entry("speed [m/s]", color="0.2", marker=".", ls="none")
+    legend_below(figure, [*(entry(n, color=c, lw=w) for n, (c, w) in styles.items()), dot])
     ax.set_xlabel("real part [s⁻¹]  (green: decays)")
     ax.set_ylabel("imaginary part [rad/s]")
     ax.tick_params(direction="in", top=True, right=True)
     away = "" if left <= float(s.real.min()) else f"; what is left of {left:.3g} is not shown"
-    words = f"root locus for {start:g} to {stop:g} m/s, λ = {lam:.4g} rad, σ = {sigma:.4g}{away}"
-    set_title(ax, f"{short(bicycle.name)}: {words}")
+    words = f"λ = {lam:.4g} rad, σ = {sigma:.4g}{remarks(bicycle, model)}{away}"
+    set_title(ax, f"{short(bicycle.name)}: root locus for {start:g} to {stop:g} m/s", words)
     return figure
 
 

@@ -36,8 +36,8 @@ DASHES = (0, (4.5, 1.8))
 BAND = "#dcebd5"
 _SAMPLES = 1201
 _TICK = 0.05  # least distance of ticks, as a share of the axis
-_LETTER = 0.0125  # width of a letter as a share of the picture's, and half the height of a line of text
-_HALF_LINE = 0.022
+_LETTER = 0.0155  # width of a letter as a share of the picture's, and half the height of a line of text
+_HALF_LINE = 0.026
 
 
 class _Line(NamedTuple):

@@ -37,7 +37,8 @@ def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
     top.set_ylabel("to the right [rad]")
     road.set_xlabel("along the road [m]")
     road.set_ylabel("to the right [m]")
-    pushed = ", ".join(f"{key} {value:g}" for key, value in push.items())
-    set_title(top, f"{short(name)} at {found.V:g} m/s after a push: {pushed} [rad, rad/s]")
-    set_title(road, "Paths of the wheels' contacts, seen from above")
+    units = {True: "rad/s", False: "rad"}
+    pushed = ", ".join(f"{key} = {value:g} {units[key.endswith('rate')]}" for key, value in push.items())
+    set_title(top, f"{short(name)} at {found.V:g} m/s after a push: {pushed}")
+    set_title(road, "Paths of the wheels on the road, from above, sideways enlarged")
     return figure

@@ -18,7 +18,7 @@ _ROLL, _STEER = "#004488", "#BB5566"  # Tol 2021, high contrast
 def draw_shapes(name: str, found: Shapes) -> Figure:
     """A machine by name: of a complex pair the eigenvalue with the positive imaginary part."""
     shown = [k for k, s in enumerate(found.eigenvalues) if s.imag >= 0]
-    figure = Figure(figsize=(3.1 * len(shown), 3.9), layout="constrained")
+    figure = Figure(figsize=(2.1 * len(shown), 3.4), layout="constrained")
     figure.suptitle(f"{short(name)} at {found.V:g} m/s: roll and steer in each mode", fontsize=10)
     for place, k in enumerate(shown, 1):
         ax = figure.add_subplot(1, len(shown), place, projection="polar")
@@ -27,14 +27,15 @@ def draw_shapes(name: str, found: Shapes) -> Figure:
             size, angle = abs(phasor), float(np.angle(phasor))
             style = {"arrowstyle": "-|>", "color": color, "lw": 2, "shrinkA": 0, "shrinkB": 0}
             ax.annotate("", (angle, size), (angle, 0), arrowprops=style)
-            ax.annotate(
-                f"{text} {size:.3g}" + (f", {math.degrees(angle):.0f}°" if abs(angle) > 1e-9 else ""),
-                (angle, max(size, 0.12)), (0, 9 if text == "roll" else -9), textcoords="offset points",
-                color=color, fontsize=9, ha="center", va="center",
+            words = f"{text} {size:.3g}" + (f", {math.degrees(angle):.0f}°" if abs(angle) > 1e-9 else "")
+            row = 0 if text == "roll" else 1
+            ax.text(
+                0.5, -0.12 - 0.12 * row, words.replace("-", "−"), transform=ax.transAxes, color=color,
+                fontsize=9, ha="center", va="center",
             )  # fmt: skip
         ax.set_ylim(0, 1.15)
         ax.set_yticks([0.5, 1], [])
-        ax.set_xticks(np.radians([0, 90, 180, 270]))
+        ax.set_xticks(np.radians([0, 90, 180, 270]), ["0°", "90°", "180°", ""])
         ax.tick_params(labelsize=8)
         ax.grid(color="0.85")
         words = f"{s.real:.3f} ± {s.imag:.3f}i 1/s" if s.imag else f"{s.real:.3f} 1/s"

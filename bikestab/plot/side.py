@@ -36,7 +36,7 @@ def draw_side(bicycle: Bicycle, lam: float, sigma: float) -> Figure:
     _wheel(ax, (p.c, p.R2), p.R2, _FRONT, "" if p.R1 == p.R2 else "R2")
     head = foot + up * top / np.cos(lam)
     ax.plot(*zip(foot, head, strict=True), color=_AXIS, lw=1.4, ls=(0, (8, 2, 2, 2)))
-    ax.text(head[0], head[1], " steering axis", color=_AXIS, va="top")
+    ax.text(head[0], head[1], "steering axis ", color=_AXIS, ha="right", va="top")
     _tilt(ax, foot, lam, top)
 
     _mass(ax, (p.l1, p.h1), "M1", f"{p.m1:g} kg", _REAR, [(0, p.R1), _on_axis(foot, up, 0.75 * top)])
@@ -46,12 +46,13 @@ def draw_side(bicycle: Bicycle, lam: float, sigma: float) -> Figure:
     _length(ax, (0, -step), (p.c, -step), f"c = {_m(p.c)}")
     _length(ax, (p.c, -2 * step), (p.c + trail, -2 * step), f"c2 = σ c = {_m(trail)}")
     _to_axis(ax, (p.c, 0.0), c1, lam, f"c1 = {_m(c1)}")
-    _to_axis(ax, (p.c, p.R2), -(p.R2 * np.sin(lam) - c1), lam, f"b = {_m(p.R2 * np.sin(lam) - c1)}")
+    if p.R2:  # of a skate it is −c1
+        _to_axis(ax, (p.c, p.R2), -(p.R2 * np.sin(lam) - c1), lam, f"b = {_m(p.R2 * np.sin(lam) - c1)}")
     d = p.h2 * np.sin(lam) + (p.l2 - p.c) * np.cos(lam) - c1
     _to_axis(ax, (p.l2, p.h2), -d, lam, f"d = {_m(d)}")
 
     ax.set_aspect("equal")
-    ax.margins(0.08)
+    ax.margins(x=0.16, y=0.08)
     ax.set_ylim(-4 * step, None)
     ax.set_xlabel("ahead of the rear contact [m]")
     ax.set_ylabel("above the ground [m]")

@@ -44,7 +44,7 @@ def _panel(ax: Axes, name: str, rows: Sequence[Row], *, panels: int, first: bool
     ax.set_ylim(max(len(rows), 1) - 0.5, -0.5)
     ax.grid(axis="x", color="0.9")
     ax.set_axisbelow(True)
-    ax.set_xlabel("per cent of the speed for one per cent more")
+    ax.set_xlabel("% of the speed for 1 % more")
     set_title(ax, short(name) if rows else f"{short(name)}: no stable speed", panels=panels)
     if first:
         ax.legend(loc="lower right")

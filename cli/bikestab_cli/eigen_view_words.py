@@ -66,6 +66,8 @@ def told_against(machine: Chosen, found: Against, V: float, unit: str, model: Mo
     words = f"{found.name} [{unit}] at {V:.6g} m/s"
     if len(rows) < len(found.values):
         words += f"; every {every.step}th of {len(found.values)} values, which --json and --csv have all"
+    ends = ", ".join(f"{start:.10g} to {stop:.10g}" for start, stop in found.stable)
+    words += f"\nstable: {ends} {unit}" if ends else "\nstable: nowhere between these"
     changed = f" ({machine.changes})" if machine.set else ""
     table_ = eigenvalue_table(f"{found.name}\n[{unit}]", rows)
     return prose(f"{heading(machine.bicycle, model, [found.name])}{changed}\n{words}\n\n{table_}")
