@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,8 @@ from bikestab.design.wanted import Asked
 from bikestab.design.wanted import Wanted as Wanted
 from bikestab.model import Floats
 from bikestab.spectrum import growth_rate_of
-from bikestab.speeds import Intervals, intervals_of
+from bikestab.speeds import intervals_of
+from bikestab.undamped import StableSpeeds, stable_speeds
 
 WORSE = 1e6  # what makes a design that is not allowed worse than all that are
 _SAMPLES, _CHUNK = 33, 1024
@@ -22,7 +23,7 @@ _COARSE, _FINE, _FINEST = 2, 4, 7  # rounds of sampling the speeds, each 16 time
 class Counted(NamedTuple):
     """Stable intervals of designs, which of them count, and how wide [m/s] those are, 0 for the others."""
 
-    intervals: Intervals
+    intervals: StableSpeeds
     counts: NDArray[np.bool_]
     width: Floats
 
@@ -30,8 +31,8 @@ class Counted(NamedTuple):
         """Those of some designs."""
         if part == slice(None):
             return self
-        intervals = Intervals(*(values[part] for values in self.intervals.arrays().values()))
-        return Counted(intervals, self.counts[part], self.width[part])
+        parts: list[Any] = [values[part] for values in self.intervals]
+        return Counted(StableSpeeds(*parts), self.counts[part], self.width[part])
 
     @property
     def any(self) -> NDArray[np.bool_]:
@@ -41,7 +42,10 @@ class Counted(NamedTuple):
 
 def counted(wanted: Asked, table: Floats) -> Counted:
     """The stable intervals of tables (5, 4, *shape); arrays have shape (*shape, interval)."""
-    found = intervals_of(table)
+    return _counted(wanted, StableSpeeds(*intervals_of(table)))
+
+
+def _counted(wanted: Asked, found: StableSpeeds) -> Counted:
     counts = wanted.V_max > found.V1
     if wanted.stable:
         counts &= (wanted.stable[0] >= found.V1) & (wanted.stable[1] <= found.V2)
@@ -88,7 +92,7 @@ def assessed(wanted: Asked, criteria: Sequence[Criterion], x: Floats) -> Floats:
     """
     own = x.ndim == 3
     table = wanted.table(wanted.within(x.reshape(len(x), -1)))
-    found = counted(wanted, table)
+    found = _counted(wanted, stable_speeds(table))
     n = x.shape[-1]
     parts = [slice(i * n, (i + 1) * n) if own else slice(None) for i in range(len(criteria))]
     merits = [c(wanted, table[..., part], found.some(part)) for c, part in zip(criteria, parts, strict=True)]
@@ -105,7 +109,7 @@ def assessed(wanted: Asked, criteria: Sequence[Criterion], x: Floats) -> Floats:
 def width_and_decay(wanted: Asked, x: Floats) -> Floats:
     """The widest interval [m/s], 0 without one, and the growth rate [s⁻¹] as judged; shape (2, S)."""
     table = wanted.table(wanted.within(x))
-    found = counted(wanted, table)
+    found = _counted(wanted, stable_speeds(table))
     growth = judged(wanted, table, found)[1]
     return np.stack([found.width.max(axis=-1), np.minimum(growth, WORSE / 2)])
 

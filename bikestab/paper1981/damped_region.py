@@ -15,7 +15,8 @@ from bikestab.paper1981.forks import bent_forwards
 from bikestab.paper1981.maps import Flags, has_unbounded, widths
 from bikestab.paper1981.several import groups, together
 from bikestab.region.lines import lowest_stable
-from bikestab.speeds import WEAVE, intervals_of
+from bikestab.speeds import WEAVE
+from bikestab.undamped import stable_speeds
 
 FOLDS = (1 / 3, 2 / 3, 1.0)  # of the largest λ: where the smallest stable σ is followed
 _SAMPLES = (60, 24, 24, 24)  # of a line for its smallest stable σ, and of the step that has it, and so on
@@ -64,7 +65,7 @@ def regions(bicycles: Sequence[Bicycle], n: int, box: DesignBox, smallest: Small
     found: list[Region] = []
     for group in groups(bicycles, n * n):
         table = characteristic_table(together(group), x, y)
-        intervals = intervals_of(table)
+        intervals = stable_speeds(table)
         V1 = np.where(intervals.lower[..., 0] == WEAVE, intervals.V1[..., 0], np.nan)
         width = widths(intervals).sum(axis=-1)
         lowest = [
@@ -86,7 +87,7 @@ def sampled_sigma_min(bicycles: Sequence[Bicycle], box: DesignBox) -> Floats:
     low, high = (np.full((len(bicycles), len(FOLDS), 1), end) for end in box.sigma)
     for samples in _SAMPLES:
         sigma = low + (high - low) * np.linspace(0, 1, samples)
-        stable = intervals_of(characteristic_table(machines, lam, sigma)).number > 0
+        stable = stable_speeds(characteristic_table(machines, lam, sigma)).upper[..., 0] > 0
         first = np.argmax(stable, axis=-1)[..., np.newaxis]
         low, high = (np.take_along_axis(sigma, at, axis=-1) for at in (np.maximum(first - 1, 0), first))
         low, high = (np.where(stable.any(axis=-1, keepdims=True), end, np.nan) for end in (low, high))

@@ -18,6 +18,7 @@ from bikestab.paper1981.several import groups, together
 from bikestab.region.curves import Curve, trace
 from bikestab.region.lines import Line, crossings
 from bikestab.speeds import Intervals, intervals_of
+from bikestab.undamped import StableSpeeds, stable_speeds
 
 Flags = NDArray[np.bool_]
 _DESIGNS = 1 << 15  # at a time: a table of 10⁶ designs would take 160 MB
@@ -108,18 +109,24 @@ def map_each(bicycles: Sequence[Bicycle], n: int, box: DesignBox = PAPER_BOX) ->
 def _stable_speeds(
     table: Floats,
 ) -> tuple[NDArray[np.intp], Flags, Flags, Floats, Floats]:
-    intervals = intervals_of(table)
+    intervals = stable_speeds(table)
     widest = np.where(intervals.upper > 0, intervals.V2 - intervals.V1, 0).max(axis=-1)
     total = widths(intervals).sum(axis=-1)
-    return intervals.number, has_unbounded(intervals), stable_at_high_speed(table), total, widest
+    return (
+        np.count_nonzero(intervals.upper, axis=-1),
+        has_unbounded(intervals),
+        stable_at_high_speed(table),
+        total,
+        widest,
+    )
 
 
-def widths(intervals: Intervals) -> Floats:
+def widths(intervals: Intervals | StableSpeeds) -> Floats:
     """The widths [m/s] of stable intervals up to the paper's highest speed; 0 behind the last."""
     return np.where(intervals.upper > 0, np.maximum(np.minimum(intervals.V2, V[1]) - intervals.V1, 0), 0)
 
 
-def has_unbounded(intervals: Intervals) -> Flags:
+def has_unbounded(intervals: Intervals | StableSpeeds) -> Flags:
     """Whether one of the intervals (…, interval) has no upper limit."""
     return np.asarray(np.isinf(intervals.V2).any(axis=-1))
 
