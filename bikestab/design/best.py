@@ -62,9 +62,7 @@ def best_designs(wanted: Wanted, *, grid: int | None = None) -> Best:
             return Best(own, None, None, None, [], closest)
         search.known.append(nearest.x)  # a region that the grid missed
     widest, low, fast = search.best([width, lowest, decay])
-    as_widest = float(assessed(wanted, [decay], widest.x[:, np.newaxis])[0, 0])
-    if as_widest < fast.value:  # both searches end at the same optimum, save for their last steps
-        fast = Found(widest.x, as_widest)
+    fast = _faster(wanted, widest, fast)
     return Best(
         own,
         judged_design(wanted, widest.x, "widest", place_of(wanted, width, widest)),
@@ -76,6 +74,22 @@ def best_designs(wanted: Wanted, *, grid: int | None = None) -> Best:
         ],
         None,
     )
+
+
+def fastest_decay(wanted: Wanted, *, grid: int | None = None) -> JudgedDesign | None:
+    """That of ``best_designs`` alone, where a design of the grid is allowed."""
+    search = _Search(wanted, grid or GRID)
+    search.look([width, decay])
+    if search.values[width].min() >= 0:
+        return None
+    fast = _faster(wanted, *search.best([width, decay]))
+    return judged_design(wanted, fast.x, "judged", place_of(wanted, decay, fast))
+
+
+def _faster(wanted: Wanted, widest: Found, fast: Found) -> Found:
+    """The widest where it decays faster: both searches end at the same optimum, save for their last steps."""
+    as_widest = float(assessed(wanted, [decay], widest.x[:, np.newaxis])[0, 0])
+    return Found(widest.x, as_widest) if as_widest < fast.value else fast
 
 
 class _Search:

@@ -77,8 +77,19 @@ def regions(bicycles: Sequence[Bicycle], n: int, box: DesignBox, smallest: Small
 
 
 def exact_sigma_min(bicycles: Sequence[Bicycle], box: DesignBox) -> Floats:
-    """The smallest σ (bicycle, λ) with a stable speed at each λ of FOLDS, NaN where there is none."""
-    return np.array([lowest_stable(Family(b), *box.sigma, x=fold_lams(box)) for b in bicycles])
+    """The smallest σ (bicycle, λ) with a stable speed at each λ of FOLDS, NaN where there is none.
+
+    The bicycles differ in nothing but damping. Those with it are followed at once.
+    """
+    lam, delta = fold_lams(box), np.array([bicycle.delta for bicycle in bicycles])
+    lowest = np.empty((len(bicycles), len(lam)))
+    for alike in (delta == 0, delta > 0):
+        if alike.any():
+            lines = np.tile(lam, np.count_nonzero(alike))
+            others = {"delta": np.repeat(delta[alike], len(lam))}
+            found = lowest_stable(Family(bicycles[0]), *box.sigma, x=lines, others=others)
+            lowest[alike] = found.reshape(-1, len(lam))
+    return lowest
 
 
 def sampled_sigma_min(bicycles: Sequence[Bicycle], box: DesignBox) -> Floats:

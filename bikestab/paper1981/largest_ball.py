@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
@@ -29,6 +28,8 @@ def largest_ball(bicycle: Bicycle, n: int) -> Ball:
 
     From n³ points and the exact distance of each stable one from the nearest that is not, or not in the box.
     """
+    from scipy.ndimage import distance_transform_edt  # which takes as long to import as to compute with
+
     x, y, z = (np.linspace(*ends, n) for ends in (LAM, SIGMA, V))
     ends = intervals_of(characteristic_table(bicycle, x[:, np.newaxis], y))
     V1, V2 = (speeds[:, :, np.newaxis, :] for speeds in (ends.V1, ends.V2))

@@ -9,7 +9,7 @@ import numpy as np
 
 from bikestab.bicycle import Bicycle
 from bikestab.design import criteria
-from bikestab.design.best import Best, best_designs
+from bikestab.design.best import Best, best_designs, fastest_decay
 from bikestab.design.criteria import Wanted
 from bikestab.design.optimum import JudgedDesign
 from bikestab.family import Family
@@ -89,11 +89,16 @@ def margin(bicycle: Bicycle, grid: int, points: int) -> Margin:
     """
     optima: list[Optimum] = []
     for words, speeds in JUDGED.items():
-        best = searched(replace(whole_box(bicycle), judged=speeds), grid)
-        if not optima and best.widest:
-            optima.append({"criterion": "widest interval", **best.widest})
-        if best.fastest_decay:
-            optima.append({"criterion": f"fastest decay {words}", **best.fastest_decay})
+        wanted = replace(whole_box(bicycle), judged=speeds)
+        if optima:
+            fast = fastest_decay(wanted, grid=grid)
+        else:
+            best = searched(wanted, grid)
+            fast = best.fastest_decay
+            if best.widest:
+                optima.append({"criterion": "widest interval", **best.widest})
+        if fast:
+            optima.append({"criterion": f"fastest decay {words}", **fast})
     designs = [(optimum["lam"], optimum["sigma"]) for optimum in optima[:2]]
     _, forwards = margins_on_grid(bicycle, grid)
     ball = largest_ball(bicycle, points)

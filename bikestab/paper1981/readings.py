@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import NamedTuple
-
-from scipy.optimize import brentq
 
 from bikestab.bicycle import Bicycle
 from bikestab.limits import least_with
@@ -190,5 +188,12 @@ def possible(bicycle: Bicycle) -> Possible:
         by_sums=len(sums),
         by_diameters=sum(2 * min(b.A2, b.B2) >= b.C2 for b in sums),
         by_parallel_axes=sum(not b.warnings for b in bicycles),
-        largest_C2=float(brentq(room, 0.0, 2 * min(p.A2, p.B2), xtol=1e-12)),
+        largest_C2=_last(room, 0.0, 2 * min(p.A2, p.B2)),
     )
+
+
+def _last(room: Callable[[float], float], low: float, high: float) -> float:
+    """The largest number up to which there is room, which gets less; by halving to rounding."""
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (middle, high) if room(middle) >= 0 else (low, middle)
+    return low

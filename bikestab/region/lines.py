@@ -8,6 +8,8 @@ function is conditioned, as discriminants are with next to no damping.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -26,11 +28,15 @@ _PARTS = 8  # into which a change is narrowed down at a time
 
 
 class Line(NamedTuple):
-    """Parallel lines in the plane of a family: x or y is None and runs, the other has shape (line,)."""
+    """Parallel lines in the plane of a family: x or y is None and runs, the other has shape (line,).
+
+    ``others`` are further parameters (line,) of their designs.
+    """
 
     family: Family
     x: ArrayLike | None
     y: ArrayLike | None
+    others: Mapping[str, Floats] = MappingProxyType({})
 
     @property
     def fixed(self) -> Floats:
@@ -44,7 +50,8 @@ class Line(NamedTuple):
     def at(self, line: NDArray[np.intp], values: Floats) -> ExactTable:
         """The table (5, 4, …) at values of the running parameter on the lines of these numbers."""
         fixed = self.fixed[line]
-        return self.family.exact_table(*((values, fixed) if self.x is None else (fixed, values)))
+        others = {name: of[line] for name, of in self.others.items()}
+        return self.family.exact_table(*((values, fixed) if self.x is None else (fixed, values)), others)
 
 
 class Samples(NamedTuple):
@@ -82,10 +89,16 @@ def stable_ranges(
 
 
 def lowest_stable(
-    family: Family, low: float, high: float, *, x: ArrayLike | None = None, y: ArrayLike | None = None
-) -> Floats:
-    """For each line the smallest value from low to high with any stable speed; NaN where there is none."""
-    ranges = stable_ranges(family, low, high, x=x, y=y)
+    family: Family, low: float, high: float, *, x: ArrayLike | None = None, y: ArrayLike | None = None,
+    others: Mapping[str, Floats] = MappingProxyType({}),
+) -> Floats:  # fmt: skip
+    """For each line the smallest value from low to high with any stable speed; NaN where there is none.
+
+    ``others`` are further parameters (line,) of the lines.
+    """
+    line = Line(family, x, y, others)
+    found = sampled(line, low, high, [low, high])
+    ranges = _runs(found, found.structure > 0, len(line.fixed))
     lowest = np.array([of[0][0] if of else np.nan for of in ranges])
     return lowest.reshape(np.asarray(y if x is None else x).shape)
 

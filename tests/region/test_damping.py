@@ -97,3 +97,15 @@ def differing(a, b):
         np.any([(middle > p) & (middle < q) for p, q in of] or [middle != middle], axis=0) for of in (a, b)
     ]
     return length[inside[0] != inside[1]].sum()
+
+
+def test_several_dampings_at_once():
+    bicycle, delta = Bicycle.preset("dikarev1981"), [0.003, 0.3, 10.0]
+    given = {"x": [0.1, 0.1, 0.3], "others": {"delta": np.array(delta)}}
+    together = lowest_stable(Family(bicycle), 0.0, 0.15, **given)
+    alone = [
+        lowest_stable(Family(bicycle.with_delta(each)), 0.0, 0.15, x=lam)
+        for each, lam in zip(delta, given["x"], strict=True)
+    ]
+    np.testing.assert_allclose(together, alone, rtol=1e-12)
+    assert len(set(together)) == 3
