@@ -6,7 +6,7 @@ from scipy.optimize import minimize
 
 from bikestab.bicycle import Bicycle
 from bikestab.design.ball import Ball, contacts, directions
-from bikestab.design.criteria import decay, lowest, width
+from bikestab.design.criteria import assessed, decay, lowest, width
 from bikestab.design.free import Free, best_free, best_of
 from bikestab.errors import InputError
 from bikestab.routh import stable
@@ -41,10 +41,14 @@ def test_optima_beat_dense_random_search_and_polish(problem, criterion):
     x, value = best_of(free, criterion)
     assert np.all((low <= x) & (x <= high))
     random = np.random.default_rng(5).uniform(low, high, (6000, len(low))).T
-    dense = criterion(free, random)
+
+    def cost(points):
+        return assessed(free, [criterion], points)[0]
+
+    dense = cost(random)
     best = random[:, np.argmin(dense)]
     end = minimize(
-        lambda point: float(criterion(free, np.asarray(point)[:, np.newaxis])[0]), best, method="Nelder-Mead",
+        lambda point: float(cost(np.asarray(point)[:, np.newaxis])[0]), best, method="Nelder-Mead",
         bounds=list(zip(low, high, strict=True)), options={"maxfev": 250},
     )  # fmt: skip
     assert value <= min(end.fun, dense.min()) + 1e-6 * abs(value)
