@@ -212,6 +212,8 @@ def _found(zeros: Zeros, polynomial: Sequence[Twofold | Double | None]) -> Found
     for a in polynomial:
         if a is not None:
             sign = np.where(sign == 0, np.sign(a.value), sign)
+            if sign.all():
+                break
     return zeros, sign
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -42,48 +42,79 @@ def unordered_letters_of(
     bicycle: Bicycle | Machines, lam: ArrayLike, sigma: ArrayLike, model: Model
 ) -> SimpleNamespace:
     """``letters_of`` in twice double precision, as numbers for many operations in a row."""
+    global _last
+    kept = _last
+    if kept is None or kept.bicycle is not bicycle:
+        p = SimpleNamespace(**{name: Unordered.of(a) for name, a in vars(_numbers(bicycle)).items()})
+        kept = _Kept(bicycle, p, fixed_letters(p))
+        if isinstance(bicycle, Bicycle):  # which never changes
+            _last = kept
     trail = sigma if isinstance(sigma, float) else np.asarray(sigma)
-    p = {name: Unordered.of(a) for name, a in vars(_numbers(bicycle)).items()}
     sin, cos = (Unordered.of(a) for a in sine_cosine(lam))
-    return letters(SimpleNamespace(**p), sin, cos, Unordered(trail), model)
+    return letters(kept.numbers, sin, cos, Unordered(trail), model, kept.fixed)
 
 
-def letters(p: SimpleNamespace, sin: Any, cos: Any, trail: Any, model: Model) -> SimpleNamespace:
-    """``letters_of`` parameters, l2 − c as ``ahead``, sin λ, cos λ and σ that are numbers of any kind."""
+class _Kept(NamedTuple):
+    """A bicycle's parameters and fixed letters: the tiles of a scan, and designs one by one, share them."""
+
+    bicycle: Bicycle | Machines
+    numbers: SimpleNamespace
+    fixed: SimpleNamespace
+
+
+_last: _Kept | None = None
+
+
+def fixed_letters(p: SimpleNamespace) -> SimpleNamespace:
+    """The letters, and parts of others, that the parameters fix whatever tilt and trail are."""
+    C1, C2 = p.C1 / p.R1, p.C2 / p.R2  # C1° and C2°: angular momentum per unit of speed
+    e, mh1, mh2 = p.m2 * p.ahead, p.m1 * p.h1, p.m2 * p.h2
+    h = mh1 + mh2
+    J12 = mh1 * p.l1 + p.D1 + mh2 * p.l2 - p.D2
+    return SimpleNamespace(
+        C1=C1, C2=C2, C12=C1 + C2, e=e, mh1=mh1, mh2=mh2, h=h, ch=p.c * h, J12=J12,
+        l=p.m1 * p.l1 + p.m2 * p.l2,
+        J1=mh1 * p.h1 + p.A1 + mh2 * p.h2 + p.A2,
+        J2=p.m1 * p.l1 * p.l1 + p.B1 + p.m2 * p.l2 * p.l2 + p.B2,
+        far=p.m1 * p.l1 + e,
+    )  # fmt: skip
+
+
+def letters(
+    p: SimpleNamespace, sin: Any, cos: Any, trail: Any, model: Model, fixed: SimpleNamespace | None = None
+) -> SimpleNamespace:
+    """``letters_of`` parameters, l2 − c as ``ahead``, sin λ, cos λ and σ that are numbers of any kind.
+
+    ``fixed`` are the parameters' ``fixed_letters``, where they are there already.
+    """
     if model not in MODELS:
         raise ValueError(f"model is {model!r}, not one of {MODELS}")
-    C1, C2 = p.C1 / p.R1, p.C2 / p.R2  # C1° and C2°: angular momentum per unit of speed
+    f = fixed or fixed_letters(p)
     mu, c2 = trail * cos, trail * p.c  # c1/c, and the trail along the ground
-    e = p.m2 * p.ahead
-    h = p.m1 * p.h1 + p.m2 * p.h2
-    l = p.m1 * p.l1 + p.m2 * p.l2  # noqa: E741  # the paper's letter
 
     d = p.h2 * sin + (p.ahead - c2) * cos
-    J1 = p.m1 * p.h1 * p.h1 + p.A1 + p.m2 * p.h2 * p.h2 + p.A2
-    J2 = p.m1 * p.l1 * p.l1 + p.B1 + p.m2 * p.l2 * p.l2 + p.B2
-    J12 = p.m1 * p.h1 * p.l1 + p.D1 + p.m2 * p.h2 * p.l2 - p.D2
     md = p.m2 * d
     own3, own4 = p.A2 * sin - p.D2 * cos, p.B2 * cos - p.D2 * sin
     J = md * d + (sin * own3 + cos * own4)
     J3, J4 = p.h2 * md + own3, p.l2 * md + own4  # (1.3)
 
-    leading = mu * J2
+    leading = mu * f.J2
 
-    turn = p.m2 * p.h2 * sin + cos * (e + trail * (p.m1 * p.l1 + e))  # m2 d + l c1/c
-    if model == "refined":
-        S, U = turn, cos * (e + trail * (p.m1 * p.l1 + e)) - p.m1 * p.h1 * sin  # U = S − h sin λ
-    else:
-        along = cos * (e - trail * p.c * p.m2)
-        S, U = p.m2 * p.h2 * sin + along, along - p.m1 * p.h1 * sin
+    up, along = f.mh2 * sin, cos * (f.e + trail * f.far)
+    turn = up + along  # m2 d + l c1/c
+    if model == "unrefined":
+        along = cos * (f.e - c2 * p.m2)
+    S = turn if model == "refined" else up + along
     return SimpleNamespace(
-        p=p, d=d, mu=mu, c=p.c, g=p.g, delta=p.delta, sin=sin, cos=cos, C1=C1, C2=C2, h=h, J1=J1, S=S, U=U,
-        M12=J3 + mu * J12,
+        p=p, d=d, mu=mu, c=p.c, g=p.g, delta=p.delta, sin=sin, cos=cos, C1=f.C1, C2=f.C2, h=f.h, J1=f.J1, S=S,
+        U=along - f.mh1 * sin,  # = S − h sin λ
+        M12=J3 + mu * f.J12,
         M22=J + mu * (2 * J4 + leading),
-        Q=J12 + trail * (p.c * h),
-        T=C2 + trail * (C1 + C2),
+        Q=f.J12 + trail * f.ch,
+        T=f.C2 + trail * f.C12,
         N=J4 + c2 * turn + leading,
-        W=turn + C2 * sin,
-        missing=None if model == "refined" else h * l * mu,
+        W=turn + f.C2 * sin,
+        missing=None if model == "refined" else f.h * f.l * mu,
     )  # fmt: skip
 
 

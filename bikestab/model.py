@@ -20,7 +20,7 @@ from bikestab.letters import MODELS as MODELS
 from bikestab.letters import Model as Model
 from bikestab.letters import determinant, letters_of, unordered_letters_of
 from bikestab.rounding import ENTRY
-from bikestab.twofold import Twofold
+from bikestab.unordered import Unordered
 
 if TYPE_CHECKING:
     from bikestab.machines import Machines
@@ -83,13 +83,19 @@ def exact_table(
     table = np.zeros((3, 5, 4, *shape))
     for some, tilt, trail in parts:
         letters = unordered_letters_of(bicycle, tilt, trail, model)
-        entries = {place: entry.ordered() for place, entry in entries_of(letters).items()}
-        poor = abs(entries[4, 0].value) < _POOR * entries[4, 0].size
+        entries = entries_of(letters)
+        p4 = entries[4, 0]
+        poor = abs(p4.value + p4.rest) < _POOR * p4.size
         if np.any(poor):
-            entries[4, 0] = _chosen(poor, determinant(letters).ordered(), entries[4, 0])
+            entries[4, 0] = _chosen(poor, determinant(letters), p4)
         for (k, j), entry in entries.items():
-            table[0, k, j, some], table[1, k, j, some] = entry.value, entry.rest
-            table[2, k, j, some] = ENTRY * entry.size
+            if shape and isinstance(entry.value, np.ndarray):
+                entry.put(table[0, k, j, some], table[1, k, j, some])
+                np.multiply(ENTRY, entry.size, table[2, k, j, some])
+            else:
+                a = entry.ordered()
+                table[0, k, j, some], table[1, k, j, some] = a.value, a.rest
+                table[2, k, j, some] = ENTRY * a.size
     return ExactTable(*table)
 
 
@@ -191,7 +197,7 @@ def entries_of(n: SimpleNamespace) -> dict[tuple[int, int], Any]:
         (1, 1): down * (n.Q * n.S - n.h * n.N),
         (1, 0): weight * c * n.delta * (-n.h),
         (0, 2): down * turning,
-        (0, 0): weight * weight * (-n.S * n.U),
+        (0, 0): -(weight * weight * (n.S * n.U)),
     }
     if gains := {name: gain for name, gain in vars(n.p).items() if name in GAINS}:
         _add_feedback(entries, n, gains)
@@ -213,8 +219,8 @@ def _add_feedback(entries: dict[tuple[int, int], Any], n: SimpleNamespace, gains
             entries[key] = entries[key] + term if key in entries else term
 
 
-def _chosen(which: NDArray[np.bool_], a: Twofold, b: Twofold) -> Twofold:
-    return Twofold(
+def _chosen(which: NDArray[np.bool_], a: Unordered, b: Unordered) -> Unordered:
+    return Unordered(
         *(np.where(which, x, y) for x, y in ((a.value, b.value), (a.rest, b.rest), (a.size, b.size)))
     )
 

@@ -120,8 +120,9 @@ def intervals_between(table: Floats | ExactTable, critical: Critical) -> Interva
         for i in range(1, len(good)):
             positive = (positive ^ (kind[i] == which)) & sign
             good[i] &= positive
-    column, stretch = np.divmod(np.flatnonzero(good.T), len(good))
-    at = stretch * n + column  # in the arrays of ends as one row
+    found = np.flatnonzero(good.T)
+    column = found // len(good)
+    at = (found - column * len(good)) * n + column  # stretch and column in the arrays of ends as one row
     low, high = V.take(at), V.take(at + n)
     inside = np.where(high < np.inf, low + 0.5 * (high - low), 2 * low + 1)
     stable, clear = _others_positive(cells_of(table), column, inside)
@@ -203,17 +204,19 @@ def _others_positive(
     There p1 (p2 p3 − p4 p1) > p0 p3² ≥ 0, so that with p3, p4 > 0 p1 and p2 have one sign: where one of
     them is near zero the other one tells.
     """
-    has = np.any(table.value if table.error is None else table.error, axis=-1)
+    rows = table.value if table.error is None else table.error
+    powers = [1.0, V, square := V * V, square * V]
     sums = []
     for k in range(1, 5):
-        p, bound = np.zeros(len(V)), np.zeros(len(V))
-        for j in np.flatnonzero(has[k, :]):
-            power = V**0 if j == 0 else V if j == 1 else V * V if j == 2 else V * V * V
-            term = table.value[k, j, cell] * power
-            p += term
-            bound += VALUE * np.abs(term)
-            if table.error is not None:
-                bound += table.error[k, j, cell] * power
+        p, bound = np.zeros((2, len(V)))
+        for j in range(4):
+            if rows[k, j].any():
+                term = table.value[k, j].take(cell)
+                term *= powers[j]
+                p += term
+                bound += VALUE * np.abs(term)
+                if table.error is not None:
+                    bound += table.error[k, j].take(cell) * powers[j]
         sums.append((p, bound))
     (p1, _), (p2, _), (p3, _), (p4, _) = sums
     clear = [np.abs(p) > bound for p, bound in sums]
