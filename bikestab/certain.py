@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.enclosing import enclosed
 from bikestab.isolation import Brackets, brackets
 from bikestab.model import Floats
 from bikestab.polynomials import Polynomial
@@ -100,7 +101,12 @@ def zeros_of(
     start = bracketed_root(plain, low, high, sign)
     x, radius, simple = _polished(c, plain, start, error)
     sure = sure.copy()
-    sure[cell[~simple]] = False
+    poor = np.flatnonzero(~simple & sure[cell])
+    if len(poor):
+        some = [None if a is None else a.at(poor) for a in c]
+        x.value[poor], radius[poor], good = enclosed(some, low[poor], high[poor], sign[poor], error)
+        x.rest[poor] = 0.0
+        radius[poor[~good]], sure[cell[poor[~good]]] = np.inf, False
     V, rest, radius = collected(cell, np.array([x.value, x.rest, radius]), number)
     for i in range(1, len(V)):
         gap = (V[i] - V[i - 1]) + (rest[i] - rest[i - 1])

@@ -239,3 +239,16 @@ def test_a_front_part_above_its_contact_leaves_no_trace(model):
         beside = exact_table(bicycle.replaced({"l2": np.nextafter(c, 2)}), 0.0, 0.0, model=model)
         assert 0 < abs(beside.value[0, 0]) < 1e-10
         assert beside.error[0, 0] < 1e-20 * abs(beside.value[0, 0])
+
+
+def test_what_is_kept_of_a_bicycle_is_its_own():
+    """The parameters' own part of a table is kept for the next one: of this very bicycle, and no other."""
+    one, other = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
+    machines = one, other, one, one.replaced({"m1": 81.0}), one.with_delta(1.0), one
+    lam = np.array([0.1, 0.2])
+    found = [exact_table(each, lam, 0.08).value for each in machines]
+    for table, each in zip(found, machines, strict=True):
+        fresh = exact_table(Bicycle(**each.numbers()) if each.bodies is None else each, lam, 0.08)
+        np.testing.assert_array_equal(table, fresh.value)
+    assert not np.array_equal(found[0], found[3])
+    assert not np.array_equal(found[0], found[4])
