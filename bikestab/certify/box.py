@@ -59,7 +59,7 @@ def box_of(
     """
     if bicycle.gains:
         problem = f"the bicycle {bicycle.name!r} has feedback, of which nothing can be proved"
-        raise InputError(problem, hint="leave its gains out")
+        raise InputError(problem, hint="leave its gains out; 'bikestab vrange' has exact speeds with them")
     if len(tolerances) > MOST_TOLERANCES:
         raise InputError(
             f"{len(tolerances)} tolerances at once are more than the {MOST_TOLERANCES} that can be proved",

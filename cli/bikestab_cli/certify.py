@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Sequence
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,9 +24,10 @@ from bikestab_cli.options import (
 )  # fmt: skip
 from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.progress import progress
-from bikestab_cli.tolerances import tolerances_of, with_design
+from bikestab_cli.tolerances import DESIGN, tolerances_of, with_design
 
 from bikestab.errors import InputError
+from bikestab.gains import GAINS
 from bikestab.units import DAMPING
 
 if TYPE_CHECKING:
@@ -36,8 +37,6 @@ if TYPE_CHECKING:
     from bikestab.model import Model
 
 MOST_CELLS = 512
-MOST_BYTES = 50_000_000  # of a certificate, whose check would take weeks
-LONG = 200  # blocks; their check is announced
 
 
 @click.command("certify")
@@ -120,10 +119,9 @@ def command(
       bikestab certify --verify proof.json
     """
     if verify:
-        from bikestab.formats.kinds import expected
+        from bikestab_cli.verify import verify_certificate
 
-        with expected("certificate", verify):
-            _verify(verify, quiet)
+        verify_certificate(verify, quiet)
         return
     from bikestab import __version__
     from bikestab.certify.box import box_of
@@ -210,31 +208,21 @@ def _of_config(name: str) -> tuple[Bicycle, Model, dict[str, Ends]]:
                 key=(key,),
                 hint=f"leave {key} out, or give ranges as --tolerance",
             )
-    if config.grid.names != ("lam", "sigma", "V"):
-        problem = f"its grid is over {config.grid.names[0]} and {config.grid.names[1]}"
-        raise InputError(problem, key=("grid",), hint="only tilt and trail are certified")
+        if config.grid.names != ("lam", "sigma", "V"):
+            raise _other_axes(config.grid.names[:2], [config.grid.ends(x) for x in config.grid.names[:2]])
     return config.machine, config.model, {axis: config.grid.ends(axis) for axis in ("lam", "sigma", "V")}
 
 
-def _verify(name: str, quiet: bool) -> None:
-    from bikestab.certify.checker import Refuted, check
-    from bikestab.texts import read_text
-
-    text = read_text(name, MOST_BYTES)
-    try:
-        certificate = json.loads(text)
-        if certificate["format"] != "bikestab certificate 2":
-            raise ValueError
-        number, cells = len(certificate["blocks"]), prod(len(axis) - 1 for axis in certificate["edges"])
-        if number > LONG:
-            click.echo(f"note: {name}: {number} blocks, 0.05 to 5 s each", err=True)
-        with progress("verify", quiet) as show:
-            show(0, cells)
-            told = check(certificate, lambda done: show(done, cells))
-        click.echo(f"{name}: {told}")
-    except Refuted as error:
-        click.echo(f"{name}: {error}", err=True)
-        click.get_current_context().exit(1)
-    except (TypeError, LookupError, AttributeError, RecursionError, OverflowError, ValueError):
-        hint = "'bikestab certify ... -o FILE' writes one"
-        raise InputError("is no certificate of bikestab", place=name, hint=hint) from None
+def _other_axes(names: Sequence[str], ends: Sequence[Ends]) -> InputError:
+    """What to say of a grid over other parameters: which of them can be proved as tolerances."""
+    others = [(name, pair) for name, pair in zip(names, ends, strict=True) if name not in (*DESIGN, *GAINS)]
+    hint = "leave the config out: --lam A:B --sigma A:B --V A:B"
+    if any(name in GAINS for name in names):
+        hint, others = (
+            "of feedback nothing can be proved; 'bikestab vrange --over' has exact speeds with it",
+            [],
+        )
+    for name, (low, high) in others:
+        hint += f" --tolerance {name}={0.5 * (low + high):g}+-{0.5 * (high - low):g}"
+    problem = f"the grid is over {' and '.join(names)}, and cells are of tilt, trail and speed"
+    return InputError(problem, key=("grid",), hint=hint + (" proves such a box" if others else ""))

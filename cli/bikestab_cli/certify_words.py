@@ -25,8 +25,8 @@ def told(proof: Proof) -> str:
     if point := record["counterexample"]:
         where = f"λ = {point['lam']:.6g}, σ = {point['sigma']:.6g}, V = {point['V']:.6g} m/s"
         where += "".join(f", {name} = {value:.6g}" for name, value in point.get("set", {}).items())
-        grows = max(real for real, _ in point["eigenvalues"])
-        lines.append(f"not stable at {where}, where it grows at {grows:.4g} 1/s")
+        roots = "; ".join(_root(*root) for root in point["eigenvalues"] if root[1] >= 0)
+        lines.append(f"not stable at {where}:\n  eigenvalues {roots} 1/s")
     if record["stopped"]:
         lines.append("stopped at the limit of --work: blocks that are open count as undecided")
     elif record["undecided"]:
@@ -36,3 +36,8 @@ def told(proof: Proof) -> str:
             f"  leave about {50 * record['undecided']:.3g} %: cells with the boundary in them"
         )
     return "\n".join(lines)
+
+
+def _root(real: float, imaginary: float) -> str:
+    """An eigenvalue, or a pair of them, in the letters of the field."""
+    return f"{real:.4g}" + (f" ± {imaginary:.4g} i" if imaginary else "")

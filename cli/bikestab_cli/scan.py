@@ -125,6 +125,8 @@ def _check_exact(config: ScanConfig, option: str) -> None:
     hint = f"leave {option} out"
     if config.grid.names != AXES:
         x, y, _ = config.grid.names
+        if option == "--certify":
+            hint += "; 'bikestab certify --tolerance' proves ranges of other parameters"
         raise InputError(
             f"the grid is over {x} and {y}, and {option} takes lam and sigma", key=("grid",), hint=hint
         )

@@ -10,6 +10,7 @@ from bikestab_cli.options import Ends
 from bikestab_cli.parameters import parameter
 
 from bikestab.errors import InputError
+from bikestab.gains import GAINS
 from bikestab.units import united
 
 if TYPE_CHECKING:
@@ -47,6 +48,9 @@ def _tolerance(text: str, bicycle: Bicycle) -> tuple[str, Ends]:
     name = text.partition("=")[0].strip()
     allowed = {*bicycle.given, "g", "delta"} - {"lam", "sigma", "rider.inertia_mass"}
     allowed -= {"c"} if bicycle.bodies else set()
+    if "=" in text and name in GAINS:
+        problem = f"{name} is feedback, of which nothing can be proved; 'bikestab vrange --over {name}=A:B:N'"
+        raise click.BadParameter(f"{problem} has exact speeds", param_hint="--tolerance")
     if "=" in text and name not in allowed:
         known = sorted(allowed | {*DESIGN})
         problem = f"{bicycle.name} has no parameter {name!r} that can vary; {nearest(name, known)}"

@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 
 import pytest
 
@@ -9,6 +10,7 @@ import bikestab.proving as proving
 from tests.plot.test_proved import CONFIG
 from tests.test_proving import stopped_after
 
+CONFIGS = Path(__file__).parents[2] / "configs"
 BOX = ["--bicycle", "meijaard2007", "--lam", "17deg:19deg", "--sigma", "0.07:0.085"]
 KEYS = {"verdict", "proved_stable", "proved_unstable", "undecided", "counterexample"}
 
@@ -85,6 +87,10 @@ def test_a_box_of_fork_offsets(bikestab):
         (["--lam", "0.1", "--sigma", "0.1", "--V=-1:2"], "negative"),
         (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "mB=85+-2"], "no parameter 'mB'"),
         (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "m1=85"], "mB=85+-2"),
+        (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "k_phi=0+-1"], "is feedback"),
+        ([str(CONFIGS / "loads.yaml")], "--tolerance mB=80+-40 proves such a box"),
+        ([str(CONFIGS / "steer_assist.yaml")], "the grid is over k_phidot and k_deltadot"),
+        ([str(CONFIGS / "spread.yaml")], "spread.yaml: sweep: a proof is of one machine"),
         (["--lam", "0.1", "--sigma", "0.1", "--V", "1:2", "--tolerance", "m1=1+-2"], "m1"),
         (["--trail", "0.1", "--tolerance", "trail=80mm+-3mm"], "trail is given twice"),
         (["nowhere.yaml", "--tolerance", "trail=80mm+-3mm"], "says what --trail says"),
@@ -207,3 +213,14 @@ def test_a_proof_that_is_stopped_goes_on(bikestab, tmp_path, monkeypatch):
     assert path.read_bytes() == other.read_bytes()
     out = bikestab("certify", *box, "--work", "50")[1]
     assert "stopped at the limit of --work" in out
+
+
+def test_a_point_that_is_not_stable_is_told_with_its_eigenvalues(bikestab):
+    options = [*BOX, "--V", "3:8", "--cells", "8"]
+    point = json.loads(bikestab("certify", *options, "--json")[1])["counterexample"]
+    words = bikestab("certify", *options)[1]
+    (line,) = (line for line in words.splitlines() if "eigenvalues" in line)
+    for real, imaginary in point["eigenvalues"]:
+        assert f"{real:.4g}" in line
+        assert imaginary == 0 or f"± {abs(imaginary):.4g} i" in line
+    assert "twice as many --cells" in words
