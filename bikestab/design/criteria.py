@@ -42,10 +42,11 @@ class Counted(NamedTuple):
 
 def counted(wanted: Asked, table: Floats) -> Counted:
     """The stable intervals of tables (5, 4, *shape); arrays have shape (*shape, interval)."""
-    return _counted(wanted, StableSpeeds(*intervals_of(table)))
+    return counted_of(wanted, StableSpeeds(*intervals_of(table)))
 
 
-def _counted(wanted: Asked, found: StableSpeeds) -> Counted:
+def counted_of(wanted: Asked, found: StableSpeeds) -> Counted:
+    """Which of the stable speeds count."""
     counts = wanted.V_max > found.V1
     if wanted.stable:
         counts &= (wanted.stable[0] >= found.V1) & (wanted.stable[1] <= found.V2)
@@ -92,7 +93,7 @@ def assessed(wanted: Asked, criteria: Sequence[Criterion], x: Floats) -> Floats:
     """
     own = x.ndim == 3
     table = wanted.table(wanted.within(x.reshape(len(x), -1)))
-    found = _counted(wanted, stable_speeds(table))
+    found = counted_of(wanted, stable_speeds(table))
     n = x.shape[-1]
     parts = [slice(i * n, (i + 1) * n) if own else slice(None) for i in range(len(criteria))]
     merits = [c(wanted, table[..., part], found.some(part)) for c, part in zip(criteria, parts, strict=True)]
@@ -109,7 +110,7 @@ def assessed(wanted: Asked, criteria: Sequence[Criterion], x: Floats) -> Floats:
 def width_and_decay(wanted: Asked, x: Floats) -> Floats:
     """The widest interval [m/s], 0 without one, and the growth rate [s⁻¹] as judged; shape (2, S)."""
     table = wanted.table(wanted.within(x))
-    found = _counted(wanted, stable_speeds(table))
+    found = counted_of(wanted, stable_speeds(table))
     growth = judged(wanted, table, found)[1]
     return np.stack([found.width.max(axis=-1), np.minimum(growth, WORSE / 2)])
 

@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from matplotlib.transforms import ScaledTranslation, Transform
 
 from bikestab.design.best import Best
-from bikestab.design.criteria import Wanted, counted
+from bikestab.design.criteria import Wanted, counted_of
 from bikestab.design.optimum import place_in_plane
 from bikestab.family import Family
 from bikestab.model import Floats
@@ -24,6 +24,7 @@ from bikestab.plot.colours import OWN
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import draw_on_white, entry, legend_below, straight_fork
 from bikestab.plot.settings import own_settings
+from bikestab.undamped import stable_speeds
 
 # the upper part of cividis: blue is narrow, yellow is wide, and black lines can be read on all of it
 WIDTH = ListedColormap(colormaps["cividis"](np.linspace(0.3, 1, 256)), name="width")
@@ -85,7 +86,7 @@ def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Fi
 def _widths(figure: Figure, ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> list[Any]:
     """Colours, and lines of equal V1 and V2, of each design's widest interval; entries of the legend."""
     X, Y = np.meshgrid(x, y)
-    designs = counted(replace(wanted, stable=None), wanted.table(np.stack([X, Y])))
+    designs = counted_of(replace(wanted, stable=None), stable_speeds(wanted.table(np.stack([X, Y]))))
     widest = np.argmax(designs.width, axis=-1)[..., np.newaxis]
     width, V1, V2 = (
         np.take_along_axis(values, widest, axis=-1)[..., 0]
@@ -131,7 +132,7 @@ def _refused(ax: Axes, wanted: Wanted, x: Floats, y: Floats) -> list[Any]:
     refused = np.any(np.abs(allowed - [X, Y]) > 1e-9, axis=0)
     elsewhere = bool(refused.any())
     if wanted.stable:
-        refused |= ~counted(wanted, wanted.table(np.stack([X, Y]))).any
+        refused |= ~counted_of(wanted, stable_speeds(wanted.table(np.stack([X, Y])))).any
     if not refused.any():
         return []
     ax.contourf(x, y, refused.astype(float), levels=[0.5, 1.5], colors=["white"], alpha=0.55)

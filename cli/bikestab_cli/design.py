@@ -153,9 +153,9 @@ def command(
       bikestab design --bicycle meijaard2007 --certified --stable 4.6:5.4
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
+    from bikestab_cli.design_picture import check_picture, draw, search
     from bikestab_cli.design_words import told, told_all
 
-    from bikestab.design.best import best_designs
     from bikestab.design.criteria import Wanted
     from bikestab.export.tables import FRONT, columns, front_blocks, of_machines, save_csv
     from bikestab.family import Family
@@ -188,11 +188,10 @@ def command(
             for each in machines
         ]
     if output:
-        from bikestab_cli.design_picture import check_picture
-
         check_picture(output, *ends)
     check_files(csv_file, output)
-    found = [(machine, wanted, best_designs(wanted)) for machine, wanted in zip(machines, asked, strict=True)]
+    bests, curves = search(asked, output)
+    found = list(zip(machines, asked, bests, strict=True))
     (machine, wanted, best), *others = found
     if not as_json:
         text = told_all(found) if others else told(wanted, best, machine.changes)
@@ -205,9 +204,7 @@ def command(
         save_csv(*of_machines(columns(FRONT, asked[0].family), blocks), csv_file)
         files["csv"] = csv_file
     if output:
-        from bikestab_cli.design_picture import draw
-
-        draw(found, output)
+        draw(found, curves, output)
         files["picture"] = output
     if as_json:
         searched: dict[str, object] = {"lam": lam, "sigma": sigma, "trail": trail, "offset": offset}

@@ -3,20 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.options import Ends
 
+from bikestab.aside import meanwhile
+
 if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
 
     from bikestab.design.best import Best
     from bikestab.design.criteria import Wanted
+    from bikestab.region.curves import Curve
 
 
-def draw(found: Sequence[tuple[Chosen, Wanted, Best]], output: str) -> None:
+def search(asked: Sequence[Wanted], output: str | None) -> tuple[list[Best], list[Curve]]:
+    """The best designs of each machine, and the curves of a picture of one, which are traced meanwhile."""
+    from bikestab.design.best import best_designs
+
+    if not output or len(asked) > 1:
+        return [best_designs(wanted) for wanted in asked], []
+    (wanted,) = asked
+    with meanwhile(partial(best_designs, wanted)) as best:
+        import bikestab.plot.designs  # noqa: F401  # matplotlib takes as long as half of the search
+        from bikestab.region.curves import trace
+
+        curves = trace(wanted.family, wanted.x, wanted.y)
+        return [best()], curves
+
+
+def draw(found: Sequence[tuple[Chosen, Wanted, Best]], curves: Sequence[Curve], output: str) -> None:
     """Draw what was found into a file."""
     from bikestab.plot.files import save
 
@@ -26,10 +45,9 @@ def draw(found: Sequence[tuple[Chosen, Wanted, Best]], output: str) -> None:
         save(draw_fronts([(machine.words, wanted, best) for machine, wanted, best in found]), Path(output))
         return
     from bikestab.plot.designs import draw_designs
-    from bikestab.region.curves import trace
 
     _, wanted, best = found[0]
-    save(draw_designs(wanted, best, trace(wanted.family, wanted.x, wanted.y)), Path(output))
+    save(draw_designs(wanted, best, curves), Path(output))
 
 
 def check_picture(output: str, lam: Ends, sigma: Ends) -> None:
