@@ -48,13 +48,13 @@ def compare(A: Side, B: Side, box: Box, within: float | str | None = None) -> tu
     ends = _ends(A, B, within)
     far = None if within is None else _share_holds(found, within)
     asked = [change["within"] for change in ends] + [far]
-    names = ("lam", "sigma", "V")
+    names = (*box.names, "V")
     record = {
         "A": _side(A), "B": _side(B), "parameters": _parameters(A, B), "ends": ends,
         "growth_rate": _growth_rates(A, B),
         "region": {
             "box": dict(zip(names, map(list, box.ends), strict=True)),
-            "designs": [len(box.lam), len(box.sigma)],
+            "designs": [len(box.x), len(box.y)],
             "A": found.volumes[0], "B": found.volumes[1], "difference": found.difference,
             "union": found.union, "share": found.share, "mean": found.mean, "within": far,
         },

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bikestab.bicycle import Bicycle
-from bikestab.model import Floats, Model, exact_table
+from bikestab.family import Family
+from bikestab.model import Floats, Model
 from bikestab.speeds import intervals_of
 
 DESIGNS = 81  # per axis, where a box comes without its own
@@ -17,7 +18,7 @@ Ends = tuple[float, float]
 class Side(NamedTuple):
     """One of two that are compared: a machine, its design if it has one, and a volume's stored speeds.
 
-    ``design`` is λ [rad] and σ; ``stored`` V1 and V2 [m/s], (lam, sigma, interval).
+    ``design`` is λ [rad] and σ; ``stored`` V1 and V2 [m/s], (x, y, interval).
     """
 
     name: str
@@ -28,32 +29,34 @@ class Side(NamedTuple):
 
 
 class Box(NamedTuple):
-    """Designs λ [rad] and σ, and the ends of a box of them and of speeds [m/s]."""
+    """Values of a ``Family``'s two parameters, the ends of a box of them and of speeds [m/s]; their names."""
 
-    lam: Floats
-    sigma: Floats
+    x: Floats
+    y: Floats
     ends: tuple[Ends, Ends, Ends]
+    names: tuple[str, str] = ("lam", "sigma")
 
     @property
     def cells(self) -> Floats:
-        """The part of the plane (lam, sigma) that each design stands for: up to half way to the next."""
-        lam, sigma = (_parts(x, ends) for x, ends in zip(self[:2], self.ends[:2], strict=True))
-        return lam[:, np.newaxis] * sigma
+        """The part of the plane (x, y) that each design stands for: up to half way to the next."""
+        x, y = (_parts(values, ends) for values, ends in zip((self.x, self.y), self.ends[:2], strict=True))
+        return x[:, np.newaxis] * y
 
 
-def box_of(ends: tuple[Ends, Ends, Ends]) -> Box:
-    """A box with the middles of equal parts of its λ and σ as designs."""
+def box_of(ends: tuple[Ends, Ends, Ends], names: tuple[str, str] = ("lam", "sigma")) -> Box:
+    """A box with the middles of equal parts of its two parameters as designs."""
     middles = (np.arange(DESIGNS) + 0.5) / DESIGNS
-    lam, sigma = (start + (stop - start) * middles for start, stop in ends[:2])
-    return Box(lam, sigma, ends)
+    x, y = (start + (stop - start) * middles for start, stop in ends[:2])
+    return Box(x, y, ends, names)
 
 
 class Region(NamedTuple):
     """What one of two machines' stable regions has and the other has not, in a box.
 
-    ``apart`` (lam, sigma) is for how many m/s exactly one of them is stable. The volumes of both regions,
-    of their symmetric difference and of their union are in rad m/s; ``mean`` [m/s] is by how much the stable
-    speeds differ on the mean of the designs that have any. An axis of one value counts as one unit.
+    ``apart`` (x, y) is for how many m/s exactly one of them is stable. The volumes of both regions, of
+    their symmetric difference and of their union are in m/s times the units of x and y; ``mean`` [m/s] is by
+    how much the stable speeds differ on the mean of the designs that have any. An axis of one value counts
+    as one unit.
     """
 
     apart: Floats
@@ -71,8 +74,8 @@ class Region(NamedTuple):
 def region(A: Side, B: Side, box: Box) -> Region:
     """The symmetric difference of two machines' stable regions.
 
-    Along the speed it is exact; over λ and σ it is a sum over the box's designs. Raises InputError for a
-    design that the equations cannot use.
+    Along the speed it is exact; over x and y it is a sum over the box's designs. Raises InputError for a
+    design that the equations cannot use, and for a machine without these parameters.
     """
     spans = [_spans(side, box) for side in (A, B)]
     one, other = ((high - low).sum(axis=-1) for low, high in spans)
@@ -94,9 +97,10 @@ def _parts(values: Floats, ends: Ends) -> Floats:
 
 
 def _spans(side: Side, box: Box) -> tuple[Floats, Floats]:
-    """V1 and V2 (lam, sigma, interval), cut at the box; where there is none both are its lower end."""
+    """V1 and V2 (x, y, interval), cut at the box; where there is none both are its lower end."""
     if side.stored is None:
-        found = intervals_of(exact_table(side.bicycle, box.lam[:, np.newaxis], box.sigma, model=side.model))
+        family = Family(side.bicycle, side.model, *box.names)
+        found = intervals_of(family.exact_table(box.x[:, np.newaxis], box.y))
         V1, V2 = found.V1, found.V2
     else:
         V1, V2 = side.stored

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bikestab.arguments import design_of
+from bikestab.bicycle import Bicycle
 from bikestab.config.scanconfig import CheckConfig, Expectation, ScanConfig
 from bikestab.config.tolerance import allowance
 from bikestab.errors import InputError
+from bikestab.model import exact_table
 from bikestab.records import Design, Interval, design_record, interval_records
-from bikestab.stability import stable_intervals
+from bikestab.speeds import intervals_of
+from bikestab.variants import check_names, check_values, varied
+
+_Key = tuple[str | int, ...]
 
 
 class Outcome(NamedTuple):
@@ -29,14 +34,30 @@ def outcomes(config: ScanConfig | CheckConfig) -> list[Outcome]:
     return [_outcome(config, expected, ("expect", i)) for i, expected in enumerate(config.expect)]
 
 
-def _outcome(config: ScanConfig | CheckConfig, expected: Expectation, key: tuple[str | int, ...]) -> Outcome:
-    try:
-        lam, sigma = (float(x) for x in design_of(config.machine, expected.lam, expected.sigma))
-    except InputError as error:
-        raise InputError(error.problem, key=key, hint="give lam and sigma in the entry") from None
-    found = interval_records(stable_intervals(config.machine, lam, sigma, model=config.model))
+def _outcome(config: ScanConfig | CheckConfig, expected: Expectation, key: _Key) -> Outcome:
+    machine, lam, sigma = _designed(config.machine, expected, key)
+    found = interval_records(intervals_of(exact_table(machine, lam, sigma, model=config.model)))
     holds = any(_agrees(expected, interval) for interval in found) if expected.stable is None else not found
-    return Outcome(expected, design_record(lam, sigma, config.machine), found, holds)
+    return Outcome(expected, design_record(lam, sigma, machine), found, holds)
+
+
+def _designed(
+    bicycle: Bicycle, expected: Expectation, key: tuple[str | int, ...]
+) -> tuple[Any, float, float]:
+    """The machine of an expectation, with λ and σ."""
+    if not expected.model_extra:
+        try:
+            lam, sigma = (float(x) for x in design_of(bicycle, expected.lam, expected.sigma))
+        except InputError as error:
+            raise InputError(error.problem, key=key, hint="give lam and sigma in the entry") from None
+        return bicycle, lam, sigma
+    try:
+        check_names(bicycle, {name: name for name in expected.values})
+        check_values(bicycle, expected.values)
+    except InputError as error:
+        raise InputError(error.problem, key=(*key, *error.key), hint=error.hint) from None
+    machine, lam, sigma = varied(bicycle, expected.values)
+    return machine, float(lam), float(sigma)
 
 
 def _agrees(expected: Expectation, found: Interval) -> bool:

@@ -16,6 +16,7 @@ from bikestab.units import quantity
 
 _Key = tuple[str | int, ...]
 _ONE = "allowed: one of head_angle, trail, lam, sigma and V"
+_EXPECTED = ("V1", "V2", "within", "stable")
 _AXES = {"head_angle": "lam", "trail": "sigma"}
 
 
@@ -82,6 +83,17 @@ def _plane(entry: Any, axes: tuple[str, ...], key: _Key) -> Any:
     return numbers
 
 
+def _of_parameters(entry: Mapping[str, Any], others: list[Any], key: _Key) -> dict[str, Any]:
+    """An expectation of a machine with other parameters, each as a number."""
+    for name in others:
+        if name not in VARIED:
+            raise mistake("unknown key", nearest(str(name), [*_EXPECTED, *VARIED]), (*key, name))
+    return {
+        name: value if name in _EXPECTED else in_si(value, VARIED[name], (*key, name))
+        for name, value in entry.items()
+    }
+
+
 def _grid(grid: Mapping[str, Any], bicycle: Bicycle, sweep: Any) -> dict[str, Any]:
     if "offset" in grid:
         raise mistake("the grid has tilt and trail", "give head_angle and trail", ("grid", "offset"))
@@ -126,6 +138,8 @@ def _entry(entry: Any, bicycle: Bicycle, key: _Key) -> Any:
     """A slice or an expectation with lam and sigma, which its MEASURED and these give."""
     if not isinstance(entry, Mapping):
         return entry
+    if key[0] == "expect" and (others := [name for name in entry if name not in {*GIVEN, *_EXPECTED}]):
+        return _of_parameters(entry, others, key)
     if key[0] == "slices" and (strange := [name for name in entry if name not in {*GIVEN, "V"}]):
         raise mistake("unknown key", nearest(str(strange[0]), [*GIVEN, "V"]), (*key, strange[0]))
     if not MEASURED.keys() & entry:

@@ -184,9 +184,13 @@ class Plane(Strict):
 
 
 class Expectation(Strict):
-    """What ``bikestab check`` compares: an interval of stable speeds, or none."""
+    """What ``bikestab check`` compares: an interval of stable speeds, or none.
 
-    model_config = ConfigDict(json_schema_extra=also_measured)
+    Of the design λ and σ, or of the machine in which any other parameters have the values that are given.
+    """
+
+    model_config = ConfigDict(json_schema_extra=_plane_schema, extra="allow")
+    __pydantic_extra__: dict[str, Number]
 
     lam: Tilt | None = None
     sigma: Trail | None = None
@@ -200,6 +204,12 @@ class Expectation(Strict):
         if (self.stable is None) == (self.V1 is None and self.V2 is None):
             raise mistake("expects nothing, or two things", "allowed: V1 and/or V2, or 'stable: never'")
         return self
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The parameters that have other values than the bicycle's, SI."""
+        given = {"lam": self.lam, "sigma": self.sigma, **(self.model_extra or {})}
+        return {name: value for name, value in given.items() if value is not None}
 
 
 def _field(value: object) -> str:

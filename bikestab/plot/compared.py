@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bikestab.comparison import Box, Region, Side
-from bikestab.plot.axes import HALO, label_axes
+from bikestab.family import Family
+from bikestab.plot.axes import HALO, label_family
 from bikestab.plot.growth import growth_axes
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
@@ -17,7 +18,7 @@ def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
     """Growth rates where both have a design, and a map over λ and σ where the box has lengths in both."""
     sides = [(f"{letter}: {short(side.name)}", side) for letter, side in (("A", A), ("B", B))]
     curves = [(name, side.bicycle, *side.design, side.model) for name, side in sides if side.design]
-    plane = min(len(box.lam), len(box.sigma)) > 1
+    plane = min(len(box.x), len(box.y)) > 1
     number = bool(curves) + plane
     figure = Figure(figsize=(6.2, 4.4 * max(number, 1)), layout="constrained")
     if curves:
@@ -25,21 +26,25 @@ def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
     if plane:
         ax = figure.add_subplot(number, 1, number)
         apart = np.ma.masked_equal(region.apart.T, 0)
-        image = ax.pcolormesh(
-            box.lam, box.sigma, apart, cmap="cividis", shading="nearest", vmin=0, rasterized=True
-        )
+        image = ax.pcolormesh(box.x, box.y, apart, cmap="cividis", shading="nearest", vmin=0, rasterized=True)
         figure.colorbar(image, ax=ax).set_label("speeds at which exactly one is stable [m/s]")
         for (name, side), marker in zip(sides, "os", strict=True):
-            if side.design and _holds(box, side.design):
-                ax.plot(*side.design, marker, ms=8, mfc="white", mec="black", clip_on=False)
-                ax.annotate(name[0], side.design, (7, 5), textcoords="offset points", path_effects=HALO)
+            if place := _place(box, side):
+                ax.plot(*place, marker, ms=8, mfc="white", mec="black", clip_on=False)
+                ax.annotate(name[0], place, (7, 5), textcoords="offset points", path_effects=HALO)
         ax.set_xlim(*box.ends[0])
         ax.set_ylim(*box.ends[1])
-        label_axes(ax, "lam", "sigma", A.bicycle.c)
+        label_family(ax, *box.names, Family(A.bicycle, A.model, *box.names))
         words = f"Stable regions differ in {100 * region.share:.3g} % of their union"
         set_title(ax, f"{words}; white: no difference")
     return figure
 
 
-def _holds(box: Box, design: tuple[float, float]) -> bool:
-    return all(low <= at <= high for at, (low, high) in zip(design, box.ends[:2], strict=True))
+def _place(box: Box, side: Side) -> tuple[float, float] | None:
+    """Where a side's design is in the box, if there."""
+    family = Family(side.bicycle, side.model, *box.names)
+    x, y = (side.design or (None, None)) if family.of_front else family.own
+    if x is None or y is None:
+        return None
+    inside = all(low <= at <= high for at, (low, high) in zip((x, y), box.ends[:2], strict=True))
+    return (x, y) if inside else None

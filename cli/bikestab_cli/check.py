@@ -37,7 +37,7 @@ def command(configs: tuple[str, ...], junit: str | None, as_json: bool) -> None:
     For CI. Reads their 'expect' entries; needs no scan, and no grid in the file: only 'bicycle' and 'expect'.
     An entry with V1 and/or V2 holds if one of the stable intervals has these ends within 'within', a speed
     or per cent of it ('1%'); 'stable: never' if there is none. Without lam and sigma it is of the bicycle's
-    own design.
+    own design; any other parameters, such as mB: 85 or delta: 1, may have values of their own.
 
     Every file is looked at. Exit code 0 if all hold, 1 if one does not, 2 if a file cannot be used.
 
@@ -101,7 +101,8 @@ def _table(checked: list[Checked]) -> str:
 def _row(name: str, outcome: Outcome) -> list[str]:
     expected = outcome.expected
     lam, sigma, offset = design_columns(outcome.design)
-    wanted = f"{_text(expected.V1)}\n{_text(expected.V2)}\nwithin {_within(expected.within)}"
+    others = "".join(f"{key} = {value:.6g}\n" for key, value in (expected.model_extra or {}).items())
+    wanted = f"{others}{_text(expected.V1)}\n{_text(expected.V2)}\nwithin {_within(expected.within)}"
     found = []
     for interval in outcome.found:
         V2 = "unbounded"
@@ -109,7 +110,14 @@ def _row(name: str, outcome: Outcome) -> list[str]:
             V2 = certain(interval["V2"], interval["V2_error"], 13, "g")
         found += [certain(interval["V1"], interval["V1_error"], 13, "g"), V2]
     verdict = "holds" if outcome.holds else "FAILED"
-    return [name, lam, sigma + offset, expected.stable or wanted, "\n".join(found) or "never", verdict]
+    return [
+        name,
+        lam,
+        sigma + offset,
+        others + expected.stable if expected.stable else wanted,
+        "\n".join(found) or "never",
+        verdict,
+    ]
 
 
 def _text(V: float | None) -> str:
@@ -126,11 +134,16 @@ def _records(checked: Checked) -> list[dict[str, Any]]:
     whose = {"config": checked.name, "bicycle": checked.bicycle, "model": checked.model}
     return [
         {
-            **whose, **outcome.design, "expected": _expected(outcome), "intervals": outcome.found,
-            "holds": outcome.holds,
+            **whose, **_over(outcome), **outcome.design, "expected": _expected(outcome),
+            "intervals": outcome.found, "holds": outcome.holds,
         }
         for outcome in checked.outcomes
     ]  # fmt: skip
+
+
+def _over(outcome: Outcome) -> dict[str, Any]:
+    others = outcome.expected.model_extra
+    return {"over": others} if others else {}
 
 
 def _expected(outcome: Outcome) -> dict[str, Any]:
@@ -151,6 +164,7 @@ def _suite(checked: Checked) -> Suite:
     for number, outcome in enumerate(checked.outcomes):
         _, lam, sigma, wanted, found, _ = (cell.replace("\n", " ") for cell in _row("", outcome))
         design = f"lam {lam.split()[0]}, sigma {sigma.split()[0]}"
+        design += "".join(f", {name} {x:g}" for name, x in (outcome.expected.model_extra or {}).items())
         problem = "" if outcome.holds else "another stable interval, or none, was found"
         text = f"expected [m/s]: {wanted}\nfound [m/s]: {found}"
         cases.append(Case(f"expect[{number}]: {design}", problem, text))

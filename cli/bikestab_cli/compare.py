@@ -76,10 +76,10 @@ def command(
 
     Each of A and B is a bicycle that comes with bikestab, or a file of one, a scan's config, or a volume or
     its folder. Compared are their parameters, the stable speeds of their own designs, or of the one that is
-    given, what happens at their ends, and the growth rate in the middle; and over tilts, trails and speeds
-    where exactly one is stable: the volume of the symmetric difference of their stable regions, as a share of
-    their union. It is exact along the speed and a sum over designs: those of the grids where these are the
-    same, else 81 × 81 in what both have of a box, for bicycles λ = 0 ... 0.6, σ = 0 ... 0.3 and 0 ... 30 m/s.
+    given, what happens at their ends, and the growth rate in the middle; and over the grid's two parameters,
+    or else tilt and trail, and speeds the volume of the symmetric difference of their stable regions, as a
+    share of their union. It is exact along the speed and a sum over designs: those of the grids where these
+    are the same, else 81 × 81 in what both have of a box, for bicycles λ = 0 ... 0.6, σ = 0 ... 0.3, 30 m/s.
 
     --at chooses of a sweep, in each of A and B that has its axis. --model, --delta and --rider are for
     bicycles: configs and volumes say these themselves.
@@ -131,10 +131,11 @@ class _Asked(NamedTuple):
 
 
 class _Axes(NamedTuple):
-    """The designs and the box of a config or a volume."""
+    """The designs and the box of a config or a volume, and what their axes are called."""
 
-    lam: Any
-    sigma: Any
+    names: tuple[str, str]
+    x: Any
+    y: Any
     ends: tuple[tuple[float, float], ...]
 
 
@@ -185,12 +186,11 @@ def _volume(name: str, asked: _Asked) -> _Found:
 
     with Volume(name) as whole:
         opened = whole.at({axis: v for axis, v in asked.machine.items() if axis in whole.swept})
-        _check_axes(name, opened.axes)
-        axes = [opened.axis(axis) for axis in ("lam", "sigma", "V")]
+        axes = [opened.axis(axis) for axis in opened.axes]
         stored = opened.read("V1"), opened.read("V2")
         side = _side(name, opened.bicycle, opened.model, asked.given, stored)
         ends = tuple((float(x[0]), float(x[-1])) for x in axes)
-        return _Found(side, _Axes(axes[0], axes[1], ends), [*whole.swept])
+        return _Found(side, _Axes(opened.axes[:2], axes[0], axes[1], ends), [*whole.swept])
 
 
 def _config(name: str, asked: _Asked) -> _Found:
@@ -208,16 +208,10 @@ def _config(name: str, asked: _Asked) -> _Found:
     bicycle = next(member.bicycle for member in config.members if member.values == values)
     warn(bicycle)
     grid = config.grid
-    _check_axes(name, grid.names)
-    ends = tuple(grid.ends(axis) for axis in ("lam", "sigma", "V"))
-    axes = _Axes(grid.values("lam"), grid.values("sigma"), ends)
+    x, y, _ = grid.names
+    ends = tuple(grid.ends(axis) for axis in grid.names)
+    axes = _Axes((x, y), grid.values(x), grid.values(y), ends)
     return _Found(_side(name, bicycle, config.model, asked.given), axes, [*swept])
-
-
-def _check_axes(name: str, axes: Sequence[str]) -> None:
-    if tuple(axes) != ("lam", "sigma", "V"):
-        problem = f"its designs are over {axes[0]} and {axes[1]}"
-        raise InputError(problem, place=name, hint="only designs of tilt and trail are compared")
 
 
 def _box(found: Sequence[_Found]) -> tuple[Box, list[Side]]:
@@ -227,24 +221,30 @@ def _box(found: Sequence[_Found]) -> tuple[Box, list[Side]]:
     from bikestab.comparison import Box, box_of
 
     known = [each.axes for each in found if each.axes]
+    names = known[0].names if known else ("lam", "sigma")
+    for each in found:
+        if each.axes and each.axes.names != names:
+            one, other = (" and ".join(axes) for axes in (each.axes.names, names))
+            hint = "give a bicycle in place of one of them: it takes the other's axes"
+            raise InputError(f"is over {one}, and the other over {other}", place=each.side.name, hint=hint)
     ends: Any = BOX
     if known:
         both = [zip(*pairs, strict=True) for pairs in zip(*(axes.ends for axes in known), strict=True)]
         ends = tuple((max(low), min(high)) for low, high in both)
-    for name, (low, high) in zip(("lam", "sigma", "V"), ends, strict=True):
+    for name, (low, high) in zip((*names, "V"), ends, strict=True):
         if low > high:
             problem = f"the two have no {name} in common"
             raise InputError(problem, hint="; ".join(_span(axes, name) for axes in known))
     first = known[0] if known else None
     same = first and all(
-        np.array_equal(axes.lam, first.lam) and np.array_equal(axes.sigma, first.sigma) for axes in known
+        np.array_equal(axes.x, first.x) and np.array_equal(axes.y, first.y) for axes in known
     )
     sides = [each.side for each in found]
     if first and same:
-        return Box(first.lam, first.sigma, ends), sides
-    return box_of(ends), [side._replace(stored=None) for side in sides]
+        return Box(first.x, first.y, ends, names), sides
+    return box_of(ends, names), [side._replace(stored=None) for side in sides]
 
 
 def _span(axes: _Axes, name: str) -> str:
-    low, high = axes.ends[("lam", "sigma", "V").index(name)]
+    low, high = axes.ends[(*axes.names, "V").index(name)]
     return f"{name} = {low:g} ... {high:g}"

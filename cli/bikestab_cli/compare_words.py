@@ -59,10 +59,11 @@ def _number(value: float | None, kind: str | None) -> str:
 def _region(found: Mapping[str, Any], asked: bool) -> str:
     box = ", ".join(f"{name} = {low:.4g} ... {high:.4g}" for name, (low, high) in found["box"].items())
     verdict = "" if not asked or found["within"] else ": BEYOND"
+    unit = "rad m/s" if [*found["box"]][:2] == ["lam", "sigma"] else "in units of the three"
     return (
         f"stable region over {box}:\n"
-        f"symmetric difference {found['difference']:.6g} of a union of {found['union']:.6g} rad m/s, "
+        f"symmetric difference {found['difference']:.6g} of a union of {found['union']:.6g} {unit}, "
         f"{100 * found['share']:.3g} %{verdict}\n"
-        f"volumes {found['A']:.6g} and {found['B']:.6g} rad m/s; "
+        f"volumes {found['A']:.6g} and {found['B']:.6g}; "
         f"stable speeds differ by {found['mean']:.3g} m/s on the mean"
     )

@@ -98,9 +98,10 @@ _CHANGE = record(
     "description": "whether it is within what is asked; null: not asked"},
 )  # fmt: skip
 _REGION = record(
-    "the stable regions", box=named(PAIR, "the ends of λ, σ and V"),
-    designs=some({"type": "integer"}, "λ, σ"),
-    A=num("volume of A's [rad m/s]"), B=num("of B's"), difference=num("of the symmetric difference"),
+    "the stable regions", box=named(PAIR, "the ends of λ, σ and V, or of other parameters of the grids"),
+    designs=some({"type": "integer"}, "how many along λ and σ, or the others"),
+    A=num("volume of A's [rad m/s, or the others' units]"), B=num("of B's"),
+    difference=num("of the symmetric difference"),
     union=num("of the union"), share=num("the difference as a share of the union"),
     mean=num("distance of the stable speeds, on the mean of designs with any [m/s]"),
     within=_CHANGE["properties"]["within"],
@@ -162,8 +163,8 @@ SCHEMAS: dict[str, Schema] = {
     "check": answer(
         either(
             record(
-                "one expectation", config=words("the file"), bicycle=words("its bicycle"),
-                model=MODEL, **DESIGN,
+                "one expectation", ("over",), config=words("the file"), bicycle=words("its bicycle"),
+                model=MODEL, over=named(NUMBERS, "other parameters' values, in SI units"), **DESIGN,
                 expected=record(
                     "as in the config", ("V1", "V2", "within", "stable"), V1=num("[m/s]"),
                     V2=either(NUMBERS, {"const": "unbounded"}, text="[m/s]"), within=_WITHIN,

@@ -27,6 +27,11 @@ def write(name, *entries):
         ("V1: 15.4km/h, within: 0.5km/h", 0),
         ("head_angle: 72deg, trail: 80mm, V1: 4.2924", 0),
         ("stable: never", 1),
+        ("mB: 100kg, V1: 4.513, V2: 6.394", 0),
+        ("mB: 100kg, V1: 4.2924", 1),
+        ("mB: 100, offset: 40mm, V1: 4.402, V2: 6.124", 0),
+        ("delta: 1, V1: 4.3735", 0),
+        ("trail: 55mm, rF: 0.36, V1: 3.9, within: 10%", 0),
     ],
 )
 def test_a_file_without_a_grid(bikestab, entry, code):
@@ -45,6 +50,10 @@ def test_per_cent_are_of_what_is_expected():
         (SMALL.format("{V1: 4, within: 0%}"), "expect[0].within: 0% is out of range; allowed: above 0%"),
         (SMALL.format("{V1: 4, within: 1 per cent}"), "expect[0].within"),
         (SMALL.format("{V1: 4, within: a%}"), "'a%' is no percentage"),
+        (SMALL.format("{mb: 3, V1: 4}"), "expect[0].mb: unknown key; did you mean 'mB'?"),
+        (SMALL.format("{R1: -3, V1: 4}"), "expect[0].R1"),
+        (SMALL.format("{m1: much, V1: 4}"), "expect[0].m1"),
+        (SMALL.format("{mB: 90, lam: 0.2, trail: 1, offset: 1cm, V1: 4}"), "expect[0]"),
         (SMALL.format("{V1: 4}") + "grids: {}\n", "did you mean 'grid'?"),
         (SMALL.format("{V1: 4}") + "slices: []\n", "grid: missing"),
         ("bicycle: meijaard2007\n", "has no expectations"),
@@ -162,3 +171,16 @@ def test_a_config_given_twice_is_refused(bikestab):
     code, out, err = bikestab("check", "good.yaml", "good.yaml")
     assert (code, out) == (2, "")
     assert "good.yaml is given twice" in err
+
+
+def test_other_parameters_are_told_of(bikestab):
+    write("a.yaml", "mB: 100, V1: 4.513, V2: 6.394", "V1: 4.2924")
+    code, out, _ = bikestab("check", "a.yaml", "--junit", "a.xml", "--json")
+    first, second = json.loads(out)["results"]
+    assert (code, first["over"], "over" in second) == (0, {"mB": 100}, False)
+    assert "mB = 100" in bikestab("check", "a.yaml")[1]
+    names = [case.name for suite in junitparser.JUnitXml.fromfile("a.xml") for case in suite]
+    assert names[0].endswith("mB 100")
+    # what vrange says of the same machine
+    _, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=100", "--json")
+    assert json.loads(out)["results"][0]["intervals"] == first["intervals"]

@@ -134,7 +134,7 @@ def test_a_picture(bikestab):
         (("meijaard2007", "sharp1971", "--within", "0%"), "0% is out of range"),
         (("meijaard2007", "sharp1971", "--within", "much"), "'much' is not a number"),
         (("a.yaml", "b.yaml"), "the two have no lam in common"),
-        (("f.yaml", "b.yaml"), "f.yaml: its designs are over mB and xB"),
+        (("f.yaml", "b.yaml"), "b.yaml: is over lam and sigma, and the other over mB and xB"),
     ],
 )
 def test_mistakes(bikestab, args, words):
@@ -205,3 +205,45 @@ def test_an_option_that_says_nothing_of_one_is_told(bikestab):
     (found,) = json.loads(out)["results"]
     assert (code, found["A"]["delta"], found["B"]["delta"]) == (0, 0, 1)
     assert err == "note: un.yaml says itself what --delta says; it holds for the other only\n"
+
+
+LOADS = """\
+bicycle: meijaard2007
+grid:
+  x: {name: mB, start: 60, stop: 100, num: 9}
+  y: {name: offset, start: 10mm, stop: 60mm, num: 6}
+  V: {start: 0, stop: 9, num: 10}
+fields: [stable]
+output: OUT
+"""
+
+
+def test_volumes_and_configs_over_other_parameters(bikestab):
+    """A volume, its config and its bicycle are one; damping changes the region as growth rates say."""
+    Path("one.yaml").write_text(LOADS.replace("OUT", "out/one"), "utf-8")
+    Path("two.yaml").write_text("delta: 2\n" + LOADS.replace("OUT", "out/two"), "utf-8")
+    assert bikestab("scan", "one.yaml", "--quiet")[0] == 0
+    for other in ("one.yaml", "meijaard2007"):
+        code, found = result(bikestab("compare", "out/one", other, "--within", "0.01%", "--json"))
+        assert (code, found["region"]["share"]) == (0, pytest.approx(0, abs=1e-12))
+        assert found["region"]["box"] == {"mB": [60, 100], "offset": [0.01, 0.06], "V": [0, 9]}
+        assert found["region"]["designs"] == [9, 6]
+    code, found = result(
+        bikestab("compare", "out/one", "two.yaml", "--within", "1%", "--json", "-o", "a.png")
+    )
+    assert code == 1
+    bike = Bicycle.preset("meijaard2007")
+    rng = np.random.default_rng(4)
+    mB, offset, V = rng.uniform([60, 0.01, 0], [100, 0.06, 9], (4000, 3)).T
+    lam, trail = bike.lam, (bike.R2 * np.sin(bike.lam) - offset) / np.cos(bike.lam)
+    signs = [
+        np.array(
+            [
+                growth_rate_of(exact_table(bike.replaced({"mB": m, "delta": delta}), lam, t / bike.c), v) < 0
+                for m, t, v in zip(mB, trail, V, strict=True)
+            ]
+        )
+        for delta in (0.0, 2.0)
+    ]
+    share = np.mean(signs[0] != signs[1]) / np.mean(signs[0] | signs[1])
+    assert found["region"]["share"] == pytest.approx(share, abs=0.03)
