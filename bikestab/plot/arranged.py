@@ -32,12 +32,15 @@ def title_place(ax: Axes) -> dict[str, Any]:
     return {"y": 1.0, "pad": 72 * (_above(ax) + _TITLE)}
 
 
-def arrange_plane(figure: Figure, ax: Axes, bar: Axes | None, rows: int) -> None:
-    """Put axes with a title, their colour bar if any, and a legend of so many rows into a figure."""
+def arrange_plane(figure: Figure, ax: Axes, bar: Axes | None, rows: int, above: float = 0.0) -> None:
+    """Put axes with a title, their colour bar if any, and a legend of so many rows into a figure.
+
+    ``above`` is the height [inches] of what is between the axes and their title.
+    """
     width, height = figure.get_size_inches()
     x0 = _EDGE + _BESIDE + _numbers(ax.yaxis)
     y0 = _legend(rows) + _UNDER
-    y1 = height - _title(ax) - _above(ax)
+    y1 = height - _title(ax) - _above(ax) - above
     x1 = width - _EDGE
     if bar:
         x1 -= _BESIDE + _numbers(bar.yaxis) + _BAR

@@ -16,8 +16,10 @@ from bikestab.bicycle import Bicycle
 from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.modenames import OSCILLATING
 from bikestab.modes import Modes, follow
+from bikestab.plot.arranged import arrange_plane
 from bikestab.plot.axes import HALO, head_angle, remarks
 from bikestab.plot.headings import set_title, short
+from bikestab.plot.lines import legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.speeds import KINDS, intervals_of
 
@@ -36,6 +38,7 @@ DASHES = (0, (4.5, 1.8))
 BAND = "#dcebd5"
 _SAMPLES = 1201
 _TICK = 0.05  # least distance of ticks, as a share of the axis
+_FIRST_NOTE, _NOTE = 8, 13  # points: above the axes, and of each row of text there
 _LETTER = 0.0155  # width of a letter as a share of the picture's, and half the height of a line of text
 _HALF_LINE = 0.026
 
@@ -58,7 +61,7 @@ def draw_modes(
     V = np.union1d(np.linspace(start, stop, _SAMPLES), near[(near > start) & (near < stop)])
     modes = follow(table, V)
 
-    figure = Figure(figsize=(5.6, 4.4), layout="constrained")
+    figure = Figure(figsize=(5.6, 4.4))
     ax = figure.add_subplot()
     ax.set_xlim(start, stop)
     _scale(ax, modes)
@@ -78,20 +81,16 @@ def draw_modes(
         *(Line2D([], [], color=STYLES[n][0], lw=STYLES[n][1], label=n) for n in missing),
         *([Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="stable")] if edges else []),
     ]
-    figure.legend(
-        handles=handles,
-        loc="outside lower center",
-        ncols=min(len(handles), 5),
-        handlelength=2.6,
-        frameon=False,
-    )
+    entries = legend_below(figure, handles, handlelength=2.6)
     ax.set_xlabel("speed V [m/s]")
     ax.tick_params(direction="in", top=True, right=True)
     title = (
         f"{short(bicycle.name)}: λ = {lam:.6g} rad (head angle {head_angle(lam):.2f}°), "
         f"σ = {sigma:.6g} (trail {sigma * bicycle.c:.4g} m){remarks(bicycle, model)}"
     )
-    set_title(ax, title, pad=8 + 13 * rows)
+    above = _FIRST_NOTE + _NOTE * rows
+    set_title(ax, title, y=1.0, pad=above)
+    arrange_plane(figure, ax, None, entries, above / 72)
     return figure
 
 
@@ -205,6 +204,8 @@ def _label_lines(ax: Axes, lines: list[_Line], edges: list[float]) -> list[str]:
     done: set[tuple[str, float]] = set()  # of two that start together, such as a real pair, one is enough
     for i in sorted(range(len(lines)), key=lambda i: np.ptp(dense[i][:, 0])):
         name = lines[i].name + (" (Im)" if lines[i].imaginary else "")
+        if np.ptp(dense[i][:, 0]) < 0.04 or (name, dense[i][0, 0]) in done:
+            continue
         half = np.array([0.5 * _LETTER * len(name), _HALF_LINE])
         own = dense[i]
         others = np.concatenate([*fixed, *(d for j, d in enumerate(dense) if j != i)])
@@ -213,14 +214,12 @@ def _label_lines(ax: Axes, lines: list[_Line], edges: list[float]) -> list[str]:
         )
         places = (own[::10, np.newaxis] + beside * half).reshape(-1, 2)
         inside = np.all((places - half > 0.015) & (places + half < 0.985), axis=1)
-        to_own, to_others = (
-            np.abs((places[:, np.newaxis] - points) / half).max(axis=2).min(axis=1)
-            for points in (own, others)
-        )
-        room = np.where(inside & (to_own > 0.99), np.minimum(to_others, 4), 0)
+        free = np.flatnonzero(inside & (_away(places, own, half) > 0.99))
+        room = np.zeros(len(places))
+        room[free] = np.minimum(_away(places[free], others, half), 4)
         room -= 0.3 * np.abs(places[:, 0] - 0.6) * (room > 0)  # not at the very ends, if it is all the same
         best = int(np.argmax(room))
-        if room[best] < 1.2 or np.ptp(own[:, 0]) < 0.04 or (name, own[0, 0]) in done:
+        if room[best] < 1.2:
             continue
         done.add((name, own[0, 0]))
         x, y = places[best]
@@ -230,6 +229,12 @@ def _label_lines(ax: Axes, lines: list[_Line], edges: list[float]) -> list[str]:
         )  # fmt: skip
         fixed.append(places[best] + half * np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)]))
     return [name for name in STYLES if name in {line.name for line in lines} - {n for n, _ in done}]
+
+
+def _away(places: Floats, points: Floats, half: Floats) -> Floats:
+    """How far places (place, 2) are from the nearest of some points, by the halves of a text's sides."""
+    x, y = ((places[:, [k]] - points[:, k]) / half[k] for k in (0, 1))
+    return np.asarray(np.maximum(np.abs(x), np.abs(y)).min(axis=1))
 
 
 def _darker(color: str) -> tuple[float, ...]:
