@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError, nearest
+from bikestab.gains import infinite_at_rest
 from bikestab.limits import check_speed, check_tilt, check_trail
 from bikestab.model import MODELS, ExactTable, Floats, Model, exact_table
 from bikestab.units import ANGLE, PURE, SPEED, quantity, shown
@@ -43,6 +44,8 @@ def table_and_speeds(
         raise InputError(f"there is no model {model!r}", key=("model",), hint=nearest(str(model), MODELS))
     tilt, trail = design_of(bicycle, lam, sigma)
     speeds = _checked("V", V)
+    if np.any(speeds == 0):
+        check_at_rest(bicycle)
     try:
         np.broadcast_shapes(tilt.shape, trail.shape, speeds.shape)
     except ValueError:
@@ -51,6 +54,13 @@ def table_and_speeds(
         )
         raise InputError(f"shapes do not broadcast together: {shapes}") from None
     return exact_table(bicycle.with_delta(delta), tilt, trail, model=model), speeds
+
+
+def check_at_rest(bicycle: Bicycle) -> None:
+    """Raise InputError, with the key ``V``, for a bicycle that has no equations at V = 0."""
+    if names := infinite_at_rest(dict(bicycle.gains)):
+        problem = f"{names[0]}/V of the bicycle {bicycle.name!r} is infinite at V = 0"
+        raise InputError(problem, key=("V",), hint="allowed: above 0")
 
 
 def _checked(name: str, given: ArrayLike) -> Floats:

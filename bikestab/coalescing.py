@@ -61,9 +61,11 @@ def _monic(table: Floats, rest: Floats, V: Floats) -> _Numbers:
     """The coefficients a, b, c, d of s³, s², s and 1 behind s⁴."""
     p = []
     for row, row_rest in zip(table, rest, strict=True):
-        value = Twofold(row[-1], row_rest[-1])
-        for x in zip(row[-2::-1], row_rest[-2::-1], strict=True):
+        value = Twofold(row[3], row_rest[3])
+        for x in zip(row[2::-1], row_rest[2::-1], strict=True):
             value = value * V + Twofold(*x)
+        for x in zip(row[4:], row_rest[4:], strict=True):  # of V^−1
+            value = value + Twofold(*x) / Twofold(V)
         p.append(value)
     return _Numbers(*(p[k] / p[4] for k in (3, 2, 1, 0)))
 

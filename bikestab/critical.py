@@ -24,13 +24,12 @@ from bikestab.entries import DAMPED, EVEN, Cells, Entries, cells_of, scaled
 from bikestab.isolation import guessed
 from bikestab.model import ExactTable, Floats
 from bikestab.rounding import CANCELLED
-from bikestab.routh import CONDITIONS, hurwitz3_of
+from bikestab.routh import CONDITIONS, hurwitz3_of, without_noise
 from bikestab.twofold import Double, Twofold
 
 T = TypeVar("T", Twofold, Double)
 
 Found = tuple[Zeros, Floats]  # of one condition in some cells: its zeros, and its sign before them
-_ALL = (*np.ndindex(5, 4),)
 _CHUNK = 1 << 13  # cells worked on at a time, so that their temporaries fit the cache
 
 
@@ -80,17 +79,20 @@ def _critical_of(table: Cells, names: Sequence[str]) -> dict[str, Found]:
     """For each name the zeros (root, cell) of a table (5, 4, cell), and the sign before them."""
     number = table.value.shape[-1]
     damped, odd = np.zeros((2, number), bool)
-    for key in np.ndindex(5, 4):
+    keys = [*np.ndindex(5, 4)]
+    if table.value.shape[1] > 4:
+        keys += [(k, -1) for k in range(5)]  # the last column, of V^−1
+    for key in keys:
         if key not in EVEN:
             into = damped if key in DAMPED else odd
             into |= table.has(key)
     uneven = damped | odd
-    groups = ((_even, EVEN, ~uneven), (_damped, DAMPED, uneven & ~odd), (_any, _ALL, odd))
+    groups = ((_even, EVEN, ~uneven), (_damped, DAMPED, uneven & ~odd), (_any, keys, odd))
     found: dict[str, list[tuple[NDArray[np.bool_], Zeros, Floats]]] = {name: [] for name in names}
-    for solve, keys, chosen in groups:
+    for solve, which, chosen in groups:
         if chosen.any():
             part = table if chosen.all() else table.some(chosen)
-            entries, unit = scaled(part, keys, closed=solve is _even)
+            entries, unit = scaled(part, which, closed=solve is _even)
             for name in names:
                 zeros, sign = solve(entries, name)
                 found[name].append((chosen, zeros if unit is None else zeros.scaled(unit), sign))
@@ -198,12 +200,15 @@ def _any(entries: Entries, name: str) -> Found:
     """Tables of other systems, with any powers of V."""
     rows = _rows(entries.numbers)
     polynomial = hurwitz3_of(rows) if name == "hurwitz3" else rows[CONDITIONS.index(name)]
+    if name == "hurwitz3" and (4, -1) in entries.numbers:
+        polynomial = without_noise(polynomial)
     return _found(zeros_of(polynomial, len(entries)), polynomial)
 
 
 def _rows(numbers: dict[tuple[int, int], T]) -> list[list[T | None]]:
-    """Entries as p0 … p4, polynomials in V."""
-    return [[numbers.get((k, j)) for j in range(4)] for k in range(5)]
+    """Entries as p0 … p4, polynomials in V; times V where there is V^−1."""
+    lowest = min(j for _, j in numbers)
+    return [[numbers.get((k, j)) for j in range(lowest, 4)] for k in range(5)]
 
 
 def _found(zeros: Zeros, polynomial: Sequence[Twofold | Double | None]) -> Found:

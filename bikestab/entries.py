@@ -101,7 +101,7 @@ class Cells(NamedTuple):
 def cells_of(table: Floats | ExactTable) -> Cells:
     """The cells of a table (5, 4, *shape), one after the other."""
     cells = Cells(*table) if isinstance(table, ExactTable) else Cells(table, None, None)
-    return cells.each(lambda array: array.reshape(5, 4, -1))
+    return cells.each(lambda array: array.reshape(*array.shape[:2], -1))
 
 
 def scaled(table: Cells, keys: Sequence[tuple[int, int]], closed: bool) -> tuple[Entries, Floats | None]:

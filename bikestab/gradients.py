@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bikestab.family import Family
-from bikestab.model import Floats
+from bikestab.model import Floats, in_powers
 from bikestab.polynomials import derivative, value
 from bikestab.speeds import CAPSIZE, REST, WEAVE, Intervals
 
@@ -36,7 +36,7 @@ def speed_gradients(
         parts = (each.reshape(number, len(x), each.shape[-1]) for each in intervals.arrays().values())
         intervals = Intervals(*parts)
     h = [_STEP * np.maximum(np.abs(p), _LEAST) for p in (x, y)]
-    table = family.table(x, y, others)
+    table = in_powers(family.table(x, y, others))
     slopes = [
         _slope(family, (x + h[0], y), (x - h[0], y), 0, others),
         _slope(family, (x, y + h[1]), (x, y - h[1]), 1, others),
@@ -66,7 +66,7 @@ def _slope(
 ) -> Floats:  # fmt: skip
     """The slope of the table between two designs that differ in one parameter."""
     a, b = (family.exact_table(*design, others) for design in (above, below))
-    return ((a.value - b.value) + (a.rest - b.rest)) / (above[axis] - below[axis])
+    return in_powers(((a.value - b.value) + (a.rest - b.rest)) / (above[axis] - below[axis]))
 
 
 def _of_condition(kind: int, table: Floats, slope: Floats, V: Floats) -> Floats:

@@ -1,6 +1,7 @@
 """(bicycle, λ, σ) → the table of its characteristic polynomial.
 
-The table P has P[k, j] = the coefficient of s^k V^j, k = 0…4, j = 0…3, with any trailing shape.
+The table P has P[k, j] = the coefficient of s^k V^j, k = 0…4, j = 0…3, with any trailing shape; of a machine
+with gains in proportion to 1/V it has one column more, the last, of V^−1.
 Equation numbers are those of Dikarev, Dikareva and Fufaev (1981); docs/theory.md has the derivation.
 """
 
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bikestab.bicycle import Bicycle
-from bikestab.gains import GAINS, rate_and_power
+from bikestab.gains import GAINS, infinite_at_rest, rate_and_power
 from bikestab.letters import MODELS as MODELS
 from bikestab.letters import Model as Model
 from bikestab.letters import determinant, letters_of, unordered_letters_of
@@ -80,7 +81,7 @@ def exact_table(
     Source: (2.1) of the paper, in real time and with ε = 1/V²; docs/theory.md, section 6.
     """
     shape, parts = _shape_and_parts(bicycle, lam, sigma)
-    table = np.zeros((3, 5, 4, *shape))
+    table = np.zeros((3, 5, _columns(bicycle), *shape))
     for some, tilt, trail in parts:
         letters = unordered_letters_of(bicycle, tilt, trail, model)
         entries = entries_of(letters)
@@ -108,7 +109,7 @@ def characteristic_table(
     each entry is right to some units of rounding of its terms, and zero where these cancel identically.
     """
     shape, parts = _shape_and_parts(bicycle, lam, sigma)
-    table = np.zeros((5, 4, *shape))
+    table = np.zeros((5, _columns(bicycle), *shape))
     for some, tilt, trail in parts:
         letters = letters_of(bicycle, tilt, trail, model, twofold=False)
         entries = entries_of(letters)
@@ -119,6 +120,16 @@ def characteristic_table(
         for (k, j), entry in entries.items():
             table[k, j, some] = entry
     return table
+
+
+def _columns(bicycle: Bicycle | Machines) -> int:
+    """Those of V^0 … V^3, and of V^−1 where it is needed."""
+    return 5 if infinite_at_rest(dict(bicycle.gains)) else 4
+
+
+def in_powers(table: Floats) -> Floats:
+    """p0 … p4 as polynomials in V, lowest power along the second axis; times V where there is V^−1."""
+    return np.roll(table, 1, axis=1) if table.shape[1] > 4 else table
 
 
 _Part = tuple[Any, ArrayLike, ArrayLike]

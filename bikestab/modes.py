@@ -47,6 +47,10 @@ def follow(table: Floats | ExactTable, V: ArrayLike) -> Modes:
         raise InputError("a speed is negative or not finite", key=("V",), hint="allowed: 0 and above")
     if (table.value if isinstance(table, ExactTable) else table)[4, 0] == 0:
         raise InputError("the mass matrix is singular: p4 = 0, and an eigenvalue is infinite")
+    if table.shape[1] > 4 and np.any(V == 0):
+        raise InputError(
+            "a gain in proportion to 1/V is infinite at rest", key=("V",), hint="allowed: above 0"
+        )
     events, stretches, meeting = along = course(table)
     rows = rows_of(table, along)
     of_stretch = names_of(table, along, rows)

@@ -8,11 +8,12 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bikestab.model import Floats
+from bikestab.model import Floats, in_powers
 from bikestab.polynomials import difference_of, product_of, value_of_cubics
 from bikestab.twofold import Double, Twofold
 
 T = TypeVar("T", Twofold, Double)
+_NOISE = 2.0**-90
 CONDITIONS = ("p0", "p1", "p2", "p3", "p4", "hurwitz3")  # bit k of ``violated`` is CONDITIONS[k]
 
 
@@ -34,8 +35,17 @@ def coefficients_at(table: Floats, V: ArrayLike) -> tuple[Floats, Floats, Floats
     """
     V = np.asarray(V, dtype=float)
     shape = np.broadcast_shapes(table.shape[2:], V.shape)
-    p0, p1, p2, p3, p4 = (value_of_cubics(row, V, shape) for row in table)
+    p0, p1, p2, p3, p4 = (_at(row, V, shape) for row in table)
     return p0, p1, p2, p3, p4
+
+
+def _at(row: Floats, V: Floats, shape: tuple[int, ...]) -> Floats:
+    """One of them: a polynomial of degree three, and what is in proportion to 1/V."""
+    out = value_of_cubics(row[:4], V, shape)
+    if len(row) > 4 and row[4].any():
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return out + np.where(row[4] == 0, 0.0, row[4] / V)  # infinite at rest
+    return out
 
 
 def conditions(table: Floats, V: ArrayLike) -> Conditions:
@@ -45,7 +55,7 @@ def conditions(table: Floats, V: ArrayLike) -> Conditions:
 
 def conditions_at_rest(table: Floats) -> Conditions:
     """The same at V = 0."""
-    return _with_hurwitz3(*table[:, 0])
+    return _with_hurwitz3(*coefficients_at(table, 0.0))
 
 
 def _with_hurwitz3(p0: Floats, p1: Floats, p2: Floats, p3: Floats, p4: Floats) -> Conditions:
@@ -63,7 +73,7 @@ def condition(table: Floats, name: str, V: ArrayLike) -> Floats:
     if name == "hurwitz3":
         return conditions(table, V).hurwitz3
     V, row = np.asarray(V, dtype=float), table[CONDITIONS.index(name)]
-    return value_of_cubics(row, V, np.broadcast_shapes(row.shape[1:], V.shape))
+    return _at(row, V, np.broadcast_shapes(row.shape[1:], V.shape))
 
 
 def violated(values: Conditions) -> NDArray[np.uint8]:
@@ -82,17 +92,38 @@ def stable(table: Floats, V: ArrayLike) -> NDArray[np.bool_]:
 def condition_polynomials(table: Floats) -> dict[str, Floats]:
     """Each condition as a polynomial in V: coefficients of V^0, V^1, … along the first axis.
 
+    Those of a table with V^−1 are multiplied by V, and hurwitz3 by V³, which changes no sign where V > 0.
+
     The products behind hurwitz3 are formed in twice double precision, so that what cancels is zero and what
     is left of it is right.
     """
+    table = in_powers(table)
     p0, p1, p2, p3, p4 = table
     rows = [[Twofold(a) if a.any() else None for a in row] for row in table]
     found = hurwitz3_of(rows)
-    hurwitz3 = np.zeros((10, *table.shape[2:]))
+    if table.shape[1] > 4:
+        found = without_noise(found)
+    hurwitz3 = np.zeros((3 * table.shape[1] - 2, *table.shape[2:]))
     for j, a in enumerate(found):
         if a is not None:
             hurwitz3[j] = a.value
     return {"p0": p0, "p1": p1, "p2": p2, "p3": p3, "p4": p4, "hurwitz3": hurwitz3}
+
+
+def without_noise(polynomial: list[Twofold | None]) -> list[Twofold | None]:
+    """V³ hurwitz3 of a table with V^−1: its first three coefficients zero where rounding alone is left.
+
+    They are made of k_phi k_deltadot − k_delta k_phidot, of gains in proportion to 1/V and constant ones (of
+    which delta is one), which often cancels identically, and is else 2^−53 of its terms or so.
+    """
+
+    def settled(a: Twofold | None) -> Twofold | None:
+        if a is None:
+            return None
+        some = np.abs(a.value) > _NOISE * a.size
+        return Twofold(*(np.where(some, x, 0.0) for x in (a.value, a.rest, a.size)))
+
+    return [*map(settled, polynomial[:3]), *polynomial[3:]]
 
 
 def hurwitz3_of(rows: Sequence[list[T | None]]) -> list[T | None]:

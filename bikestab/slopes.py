@@ -97,8 +97,12 @@ def condition_at(slopes: Slopes, name: str, V: Twofold) -> Dual:
 
 
 def condition_of(slopes: Slopes, name: str) -> list[Dual | None]:
-    """P0 … p4, hurwitz3, or q = p2 p3 − p4 p1, as a polynomial in V; None for a power that it cannot have."""
-    rows: list[list[Any]] = [[slopes.entries.get((k, j)) for j in range(4)] for k in range(5)]
+    """P0 … p4, hurwitz3, or q = p2 p3 − p4 p1, as a polynomial in V; None for a power that it cannot have.
+
+    Times powers of V where there is V^−1.
+    """
+    lowest = min(j for _, j in slopes.entries)
+    rows: list[list[Any]] = [[slopes.entries.get((k, j)) for j in range(lowest, 4)] for k in range(5)]
     if name == "hurwitz3":
         return hurwitz3_of(rows)
     if name == "q":

@@ -70,8 +70,9 @@ def quadratics(table: Floats | ExactTable, V: ArrayLike) -> tuple[Quadratic, Qua
 
 def _chosen(table: Floats, cells: NDArray[np.bool_]) -> Floats:
     """The tables (5, 4, cell) of some cells of the shape that table and speeds have together."""
-    padded = table.reshape(5, 4, *(1,) * (cells.ndim - table.ndim + 2), *table.shape[2:])
-    return np.broadcast_to(padded, (5, 4, *cells.shape))[:, :, cells]
+    size, own = table.shape[:2], table.shape[2:]
+    padded = table.reshape(*size, *(1,) * (cells.ndim - len(own)), *own)
+    return np.broadcast_to(padded, (*size, *cells.shape))[:, :, cells]
 
 
 def _put(arrays: Iterable[Floats], cells: NDArray[np.bool_], values: Iterable[Floats]) -> None:

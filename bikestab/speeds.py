@@ -84,7 +84,7 @@ def intervals_of(table: Floats | ExactTable) -> Intervals:
     The last axis is as long as the largest number of intervals in any cell, and at least 1.
     """
     shape = table.shape[2:]
-    cells = table.reshape(5, 4, -1)
+    cells = table.reshape(*table.shape[:2], -1)
     found = intervals_between(cells, critical(cells, ("p0", "hurwitz3")))
     return Intervals(*(field.reshape(*shape, field.shape[-1]) for field in found.arrays().values()))
 
@@ -205,11 +205,11 @@ def _others_positive(
     them is near zero the other one tells.
     """
     rows = table.value if table.error is None else table.error
-    powers = [1.0, V, square := V * V, square * V]
+    powers = [1.0, V, square := V * V, square * V, 1 / V]
     sums = []
     for k in range(1, 5):
         p, bound = np.zeros((2, len(V)))
-        for j in range(4):
+        for j in range(rows.shape[1]):
             if rows[k, j].any():
                 term = table.value[k, j].take(cell)
                 term *= powers[j]

@@ -68,7 +68,7 @@ def stable_intervals(
            [1, 1, 1],
            [1, 1, 1]])
     """
-    table, _ = table_and_speeds(bicycle, 0.0, lam, sigma, model, delta)
+    table, _ = table_and_speeds(bicycle, 1.0, lam, sigma, model, delta)  # any speed: the table has all
     return intervals_of(table)
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.exact import Integers, integers, positive_roots, sign
-from bikestab.model import ExactTable, Floats
+from bikestab.model import ExactTable, Floats, in_powers
 
 
 class Stretch(NamedTuple):
@@ -54,7 +54,7 @@ def course(table: Floats | ExactTable) -> Course:
 
 @lru_cache(maxsize=4)  # a table of numbers and a picture ask about the same bicycle
 def _course(*parts: bytes) -> Course:
-    tables = [np.frombuffer(part).reshape(5, 4) for part in parts]
+    tables = [in_powers(np.frombuffer(part).reshape(5, -1)) for part in parts]
     table = tables[0]
     D, Q, seminvariants = _discriminant(*tables)
     events = positive_roots(np.convolve(D, Q) if any(D) and any(Q) else D if any(D) else Q)
@@ -112,7 +112,7 @@ def _exchanged(slots: tuple[int, ...]) -> tuple[int, ...]:
 
 def _rank(table: Floats, V: float) -> int:
     """How many real eigenvalues are above the double one at V: the other three are real or a real pair."""
-    p = table @ V ** np.arange(4)
+    p = table @ V ** np.arange(table.shape[1])
     turning = -np.sort(-np.roots((p[1:] * np.arange(1, 5))[::-1]).real)  # they separate four real roots
     powers = turning ** np.arange(5)[:, np.newaxis]
     return int(np.argmin(np.abs(p @ powers) / (np.abs(p) @ np.abs(powers))))
@@ -159,4 +159,4 @@ def _discriminant(*tables: Floats) -> tuple[Integers, Integers, tuple[Integers, 
     P = 8 * m(a, c) - 3 * m(b, b)
     R = 64 * m(a, a, a, e) - 16 * m(a, a, c, c) + 16 * m(a, b, b, c) - 16 * m(a, a, b, d) - 3 * m(b, b, b, b)
     Q = m(b, b, b) + 8 * m(a, a, d) - 4 * m(a, b, c)
-    return 4 * m(I, I, I) - m(J, J), Q if a[0] > 0 else -Q, (P, R)
+    return 4 * m(I, I, I) - m(J, J), Q if a.sum() > 0 else -Q, (P, R)

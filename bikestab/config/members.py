@@ -17,6 +17,7 @@ from bikestab.config.variation import BOTH, Ensemble
 from bikestab.errors import InputError, nearest
 from bikestab.family import Family
 from bikestab.fields import AXES, Axes
+from bikestab.gains import infinite_at_rest
 from bikestab.limits import MOST_TRAIL
 from bikestab.model import Floats
 from bikestab.variants import FRONT, fixed_by, front_of, varied
@@ -103,8 +104,12 @@ def check_family(bicycle: Bicycle, grid: Grid | FamilyGrid) -> None:
 
 
 def check_designs(machines: list[Member], grid: Grid | FamilyGrid) -> None:
-    """Raise InputError where no machine has the parameters' values at the corners of the grid."""
+    """Raise InputError where no machine has the values at the corners of the grid, or one none at rest."""
     x, y, _ = grid.names
+    named = {x, y}.union(*(dict(member.bicycle.gains) for member in machines))
+    if grid.ends("V")[0] == 0 and (gains := infinite_at_rest(sorted(named))):
+        problem = f"{gains[0]}/V is infinite at V = 0"
+        raise InputError(problem, key=("grid", "V"), hint="let the speeds begin above 0")
     if grid.names == AXES:  # checked where they are read
         return
     for member in machines:

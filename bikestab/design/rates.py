@@ -84,7 +84,8 @@ def best_rate(slopes: Slopes) -> Rate:
 
 def _tables(slopes: Slopes) -> tuple[Floats, Floats]:
     """The table (5, 4) and its derivatives (5, 4, parameter)."""
-    table, by = np.zeros((5, 4)), np.zeros((5, 4, len(slopes.variables)))
+    lowest = min(j for _, j in slopes.entries)  # −1 where there is 1/V
+    table, by = np.zeros((5, 4 - lowest)), np.zeros((5, 4 - lowest, len(slopes.variables)))
     for (k, j), entry in slopes.entries.items():
         table[k, j], by[k, j] = entry.value.value, entry.slope.value
     return table, by
@@ -99,14 +100,14 @@ def _lowest(table: Floats) -> tuple[float, float]:
 
 
 def _local(table: Floats, by: Floats, s: complex, V: float) -> _Local:
-    k, j = np.arange(5.0), np.arange(4.0)
+    k, j = np.arange(5.0), np.array([0.0, 1.0, 2.0, 3.0, -1.0])[: table.shape[1]]
 
     def powers(order: int, x: complex, n: Floats) -> NDArray:
         """The derivative of this order of x^n."""
         factor = np.ones(len(n))
         for i in range(order):
             factor = factor * (n - i)
-        return factor * np.array(x, dtype=complex) ** np.maximum(n - order, 0)
+        return factor * np.array(x, dtype=complex) ** np.where(factor == 0, 0, n - order)
 
     S, W = [powers(i, s, k) for i in range(3)], [powers(i, V, j) for i in range(3)]
 

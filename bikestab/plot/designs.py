@@ -37,6 +37,7 @@ OPTIMA: dict[str, tuple[str, str, float]] = {  # marker, legend, size
 # red and its shades are on no place of the colour scale; the dashes tell them apart in greyscale
 CURVES: dict[str, tuple[str, Any]] = {
     "fold": ("#a50026", "-"),
+    "fold of capsize": ("#a50026", (0, (1, 1.2))),
     "weave meets capsize": ("#a50026", (0, (6, 1.5))),
     "capsize at infinity": ("#7a0177", (0, (1, 1.2))),
     "weave at infinity": ("#7a0177", (0, (4, 1.2, 1, 1.2))),

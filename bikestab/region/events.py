@@ -109,11 +109,17 @@ def _event_within(key: CurveName, table: Floats) -> Event:
         needed = {
             "fold": {"weave": exists, "meet": (p.p0 > 0) & (p.p1 > 0), "crossing": p.p3 > 0},
             "crossing": {"weave": exists, "meet": p.p0 > 0, "fold": (p.p2 > 0) & (p.p2**2 > 4 * p.p4 * p.p0)},
+            "capsize fold": {
+                "capsize": exists,
+                "meet": p.hurwitz3 > 0,
+                "slow meet": p.p1 > 0,
+                "crossing": p.p3 > 0,
+            },
             "meet": {"capsize": exists, "slow meet": p.p1 > 0, "crossing": p.p3 > 0},
             "slow meet": {"capsize": exists, "meet": p.p2 > 0, "crossing": p.p3 > 0},
         }[key] | {"singular inertia": p.p4 > 0}
-        if key == "fold":  # else two intervals meet and become one
-            closes = value(derivative(derivative(weave)), x) < 0
+        if key in ("fold", "capsize fold"):  # else two intervals meet and become one
+            closes = value(derivative(derivative(weave if key == "fold" else p0)), x) < 0
         elif key == "crossing":
             closes = exists
         else:  # else weave and capsize change places at one end
@@ -160,6 +166,7 @@ def _common_root(key: CurveName, polynomials: dict[str, Floats]) -> Floats:
     candidates, other = {
         "fold": (derivative(weave), weave),
         "crossing": (p1, p3),
+        "capsize fold": (derivative(p0), p0),
         "meet": (p0, q),
         "slow meet": (p0, p1),
     }[key]

@@ -24,7 +24,7 @@ from bikestab.region.pieces import NAMES
 from bikestab.region.skeleton import CurveName
 from bikestab.routh import condition_polynomials
 from bikestab.slopes import Slopes, by_name, condition_of, skates, slopes_of, value_at
-from bikestab.speeds import REST, UNBOUNDED, WEAVE, intervals_of
+from bikestab.speeds import CAPSIZE, REST, UNBOUNDED, WEAVE, intervals_of
 from bikestab.twofold import Twofold
 
 _STEPS = 12  # of Newton's method, at most
@@ -159,6 +159,8 @@ def _events(table: Floats) -> list[tuple[CurveName, float]]:
             events += [("weave at rest", 0.0), ("capsize at rest", 0.0)]
         elif kinds == (WEAVE, WEAVE):
             events += [("crossing", middle), ("fold", middle)]
+        elif kinds == (CAPSIZE, CAPSIZE):
+            events.append(("capsize fold", middle))
         else:
             events += [("meet", middle), ("slow meet", middle)]
     return [*events, ("singular inertia", math.nan)]
@@ -178,10 +180,10 @@ def _equations(kind: CurveName, around: Floats) -> Equations:
             return [found] if found is not None else []
 
         return coefficient
-    if kind == "fold":
+    if kind in ("fold", "capsize fold"):
 
         def fold(slopes: Slopes, V: Twofold) -> list[Dual]:
-            c = condition_of(slopes, "hurwitz3")
+            c = condition_of(slopes, "hurwitz3" if kind == "fold" else "p0")
             by_V = [None if a is None else a * float(j) for j, a in enumerate(c)][1:]
             return [value_at(slopes, c, V), value_at(slopes, by_V, V)]
 

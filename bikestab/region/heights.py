@@ -158,7 +158,7 @@ def distance(box: Box, name: str, points: Floats, V: Floats) -> Floats:
     def value(du: float, dv: float, dV: float) -> Floats:
         step = np.array([du, dv]).reshape(2, *(1,) * (points.ndim - 1))
         table = box.table(points + step)
-        return getattr(conditions(np.broadcast_to(table, (5, 4, *V.shape)), V + dV * speed), name)
+        return getattr(conditions(np.broadcast_to(table, (*table.shape[:2], *V.shape)), V + dV * speed), name)
 
     h = _STEP
     slopes = [

@@ -11,6 +11,7 @@ from bikestab.region.skeleton import CurveName
 
 NAMES: dict[CurveName, str] = {name: name for name in get_args(CurveName)} | {
     "crossing": "fold",  # of two weave speeds, by the weave surface crossing itself
+    "capsize fold": "fold of capsize",  # of two capsize speeds, with gains that are not constant
     "meet": "weave meets capsize",
     "slow meet": "weave meets capsize",  # at zero frequency
 }

@@ -10,7 +10,7 @@ import numpy as np
 from contourpy import contour_generator
 
 from bikestab.family import Family
-from bikestab.model import Floats
+from bikestab.model import Floats, in_powers
 from bikestab.rounding import POLYNOMIAL
 from bikestab.routh import CONDITIONS, conditions, hurwitz3_of
 from bikestab.twofold import Double
@@ -41,7 +41,7 @@ class Section:
         }
         table = self.family.quick_table(at[self.family.x], at[self.family.y])
         shape = table.shape[2:]
-        return table.reshape(5, 4, *(1,) * (at["V"].ndim - len(shape)), *shape), at["V"]
+        return table.reshape(*table.shape[:2], *(1,) * (at["V"].ndim - len(shape)), *shape), at["V"]
 
 
 def edge_curves(
@@ -85,7 +85,7 @@ def zero_curves(
 def _values(section: Section, names: Sequence[str], x: Floats, y: Floats) -> list[Floats]:
     """The conditions at points of the plane, without their factors V^m, which are no boundary."""
     table, V = section.table_and_speed(x, y)
-    rows = [[Double(a, np.abs(a)) if a.any() else None for a in row] for row in table]
+    rows = [[Double(a, np.abs(a)) if a.any() else None for a in row] for row in in_powers(table)]
     shape = np.broadcast_shapes(x.shape, y.shape)
     found = []
     for name in names:

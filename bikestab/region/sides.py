@@ -37,7 +37,7 @@ def side_of_each(table: Floats, names: Sequence[CurveName], which: NDArray[np.in
 
 def _sides(table: Floats, names: Sequence[CurveName], found: SpeedPolynomials) -> dict[CurveName, Floats]:
     polynomials, power = found
-    if power == 2:
+    if power == 2 or table.shape[1] > 4 or table[0, 1::2].any():  # p0 has odd powers with some gains alone
         return curve_functions(table, names, polynomials)
     p0, p1, p2, p3, p4 = table
     weave = polynomials["hurwitz3"]

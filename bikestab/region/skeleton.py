@@ -13,14 +13,15 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.model import Floats
+from bikestab.model import Floats, in_powers
 from bikestab.polynomials import derivative, product, settled, total, trimmed
 from bikestab.routh import condition_polynomials
 
 CurveName = Literal[
-    "fold", "crossing", "meet", "slow meet", "capsize at infinity", "weave at infinity",
+    "fold", "crossing", "capsize fold", "meet", "slow meet", "capsize at infinity", "weave at infinity",
     "capsize at rest", "weave at rest", "singular inertia",
 ]  # fmt: skip
+_POWERS = np.array([0, 1, 2, 3, -1])  # of V, in the columns of a table
 _LOG = 700.0  # of the largest and smallest determinants that are told apart
 
 
@@ -37,6 +38,7 @@ class SpeedPolynomials(NamedTuple):
 def speed_polynomials(table: Floats) -> SpeedPolynomials:
     """The conditions of a table (5, 4, *shape), and q = p2 p3 − p4 p1: at p0 = 0 hurwitz3 is p1 q."""
     conditions = condition_polynomials(table)
+    table = in_powers(table)
     first, second = product(table[2], table[3]), product(table[4], table[1])
     conditions["q"] = settled(total(first, -second), total(np.abs(first), np.abs(second)))
     short = {name: trimmed(poly) for name, poly in conditions.items()}
@@ -57,6 +59,7 @@ def curve_functions(
 
     - fold: hurwitz3 has a double root in V; its discriminant;
     - crossing: p1 and p3 have a common root, where the weave surface crosses itself, a fold as well;
+    - capsize fold: p0 has a double root in V, which needs gains that are not constant; its discriminant;
     - meet: p0 and q have a common root, where weave (with a frequency) meets capsize; their resultant;
     - slow meet: the same at zero frequency, where p0 and p1 have a common root;
     - … at infinity, at rest: the highest or lowest coefficient of p0 or hurwitz3;
@@ -67,6 +70,7 @@ def curve_functions(
     functions: dict[CurveName, Callable[[], Floats]] = {
         "fold": lambda: _discriminant(weave),
         "crossing": lambda: p3[0] if len(p3) == 1 else _resultant(p1, p3),
+        "capsize fold": lambda: _discriminant(p0 if p0[1::2].any() else p0[::2]),
         "meet": lambda: _resultant(q, p0),
         "slow meet": lambda: _resultant(p1, p0),
         "capsize at infinity": lambda: p0[-1],
@@ -83,11 +87,11 @@ def units(table: Floats) -> NDArray[np.intp]:
 
     Those that bring the logarithms of the table's entries (their largest in any cell) nearest to zero.
     """
-    size = np.abs(table.reshape(5, 4, -1)).max(axis=2, initial=0.0)
+    size = np.abs(table.reshape(*table.shape[:2], -1)).max(axis=2, initial=0.0)
     k, j = np.nonzero(np.isfinite(size) & (size > 0))
     if len(k) < 3:
         return np.zeros(3, np.intp)
-    powers = np.array([k, j, np.ones(len(k))]).T
+    powers = np.array([k, _POWERS[j], np.ones(len(k))]).T
     best = np.linalg.lstsq(powers, -np.log2(size[k, j]), rcond=1e-9)[0]
     return np.rint(best).astype(np.intp)
 
@@ -95,8 +99,8 @@ def units(table: Floats) -> NDArray[np.intp]:
 def in_units(table: Floats, exponents: NDArray[np.intp] | None = None) -> Floats:
     """The table in other units, those of ``units`` or its own best ones: nothing is rounded."""
     s, V, whole = units(table) if exponents is None else exponents
-    shift = s * np.arange(5)[:, np.newaxis] + V * np.arange(4) + whole
-    return np.ldexp(table, shift.reshape(5, 4, *(1,) * (table.ndim - 2)))
+    shift = s * np.arange(5)[:, np.newaxis] + V * _POWERS[: table.shape[1]] + whole
+    return np.ldexp(table, shift.reshape(*shift.shape, *(1,) * (table.ndim - 2)))
 
 
 def undamped(table: Floats) -> Floats | None:

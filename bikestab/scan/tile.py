@@ -77,8 +77,10 @@ class Tile:
     def table(self) -> ExactTable:
         """The table (5, 4, cell) of all cells of all machines."""
         if self.swept:
-            return self.family.exact_table(*self.cells, self.swept).reshape(5, 4, -1)
-        return self.family.exact_table(self.x[:, np.newaxis], self.y).reshape(5, 4, -1)
+            table = self.family.exact_table(*self.cells, self.swept)
+        else:
+            table = self.family.exact_table(self.x[:, np.newaxis], self.y)
+        return table.reshape(*table.shape[:2], -1)
 
 
 class Columns(NamedTuple):
