@@ -12,8 +12,12 @@ import pytest
 import bikestab as bs
 from bikestab.bicycle import Bicycle
 from bikestab.config.template import starting_config
-from bikestab.design.sensitivity import sensitivity
+from bikestab.design.sensitivity import held, sensitivity
 from bikestab.design.spread import own_spread
+from bikestab.machines import Machines
+from bikestab.model import characteristic_table
+from bikestab.slopes import by_name, slopes_of
+from bikestab.speeds import critical_speeds
 from tests.configs import load
 
 E_BIKE = """\
@@ -95,6 +99,17 @@ def ensemble_of(name, *overrides):
         return found, volume.axis("quantile")
 
 
+def weave_speeds(bicycle, number):
+    """The highest weave speed of drawn machines, whether or not they capsize there; NaN where there is none."""
+    random = np.random.default_rng(5)
+    drawn = {name: random.normal(bicycle.given[name], sd, number) for name, sd in bicycle.deviations.items()}
+    lam, trail = drawn.pop("lam"), drawn.pop("c")
+    machines, good = Machines.tried(bicycle, drawn)
+    assert good.all()
+    table = characteristic_table(machines, lam[:, np.newaxis], (trail / drawn["w"])[:, np.newaxis])[..., 0]
+    return np.fmax.reduce(critical_speeds(table)["hurwitz3"])
+
+
 def test_the_balance_assist_e_bike():
     speeds = "grid.V={values: [3.8]}"
     found, _ = ensemble_of("ebike.txt", speeds)
@@ -112,6 +127,11 @@ def test_the_balance_assist_e_bike():
     assert known["V1"]["linear"] == pytest.approx(0.35, abs=0.01)
     # 120 000 machines of another generator: 0.37, with quantiles 3.01, 3.46 and 4.20, and up to 6.2 m/s
     assert known["V1"]["sampled"] == pytest.approx(0.370, abs=0.01)
+    # 0.6 to 0.8, as first told, is the weave speed of all machines, of those too that are stable nowhere
+    weave = weave_speeds(bicycle, 20_000)
+    assert 0.6 < np.nanstd(weave) < 0.8
+    assert np.nanmax(weave) > 15
+    assert np.isnan(weave).mean() < 0.005
     ends = [known["V1"][key] for key in ("low", "median", "high")]
     assert ends == pytest.approx([3.01, 3.46, 4.20], abs=0.03)
     assert known["exists"] == pytest.approx(float(found["probability_somewhere"]), abs=0.01)
@@ -124,6 +144,13 @@ def test_the_reversed_road_bicycle():
     bounded = 1 - found["probability_unbounded"] / found["probability_somewhere"]
     assert bounded == pytest.approx(0.145, abs=0.01)
     assert found["probability_somewhere"] == 1
+    # the V² term of p0 ends the stability at high speeds where it becomes negative
+    bicycle = Bicycle.load("reversed.txt")
+    slopes = slopes_of(bicycle, bicycle.lam, bicycle.sigma)
+    term = slopes.entries[0, 2]
+    by = held(bicycle, bicycle.lam, bicycle.sigma, "trail", dict(by_name(slopes, term.slope)))
+    deviation = np.sqrt(sum((by[name] * sd) ** 2 for name, sd in bicycle.deviations.items()))
+    assert float(term.value.value) / deviation == pytest.approx(1.06, abs=0.02)
     # half of those that have an upper limit have it below the quantile of half their share
     found, _ = ensemble_of("reversed.txt", f"ensemble.quantiles=[{bounded / 2:.4f}]")
     assert found["V2_quantiles"][0] == pytest.approx(41, abs=2)
