@@ -13,6 +13,7 @@ import bikestab as bs
 from bikestab.bicycle import Bicycle
 from bikestab.config.expectations import outcomes
 from bikestab.config.file import load_config
+from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.gains import GAINS
 from bikestab.model import canonical_matrices, characteristic_table, exact_table
