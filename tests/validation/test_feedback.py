@@ -13,6 +13,7 @@ import bikestab as bs
 from bikestab.bicycle import Bicycle
 from bikestab.config.expectations import outcomes
 from bikestab.config.file import load_config
+from bikestab.design.free import Free, best_free
 from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.gains import GAINS
@@ -234,3 +235,13 @@ def test_the_published_steer_assist():
 
 def test_a_gain_of_zero_is_none():
     assert BENCHMARK.replaced({"k_phi": 0.0}) == BENCHMARK
+
+
+def test_searches_know_gains_in_proportion_to_1_over_v():
+    own = BENCHMARK.replaced({"k_phidot_per_V": -60.0, "delta": 1.0})
+    free = Free(own, {"lam": (0.2, 0.4), "k_deltadot": (0.0, 5.0)}, judged=(4.0, 4.0))
+    found = best_free(free)
+    for design in (found.own, found.fastest_decay):
+        machine = own.replaced({"k_deltadot": design["over"]["k_deltadot"], "lam": design["lam"]})
+        assert growth(machine, np.array([4.0]))[0] == pytest.approx(design["growth_rate"], abs=1e-6)
+    assert found.fastest_decay["growth_rate"] < found.own["growth_rate"]
