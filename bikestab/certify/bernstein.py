@@ -71,7 +71,8 @@ def bounds(whole: Bernstein, low: Floats, high: Floats) -> tuple[Floats, Floats]
     """
     shape, parts = whole.coefficients.shape, len(low)
     weights = [_weights(length - 1, low[:, axis], high[:, axis]) for axis, length in enumerate(shape)]
-    values: Floats = np.tensordot(weights[0], whole.coefficients, axes=(2, 0)).reshape(parts, shape[0], -1)
+    # not as one product of large matrices, for which threads of the linear algebra would wait for each other
+    values: Floats = np.matmul(weights[0], whole.coefficients.reshape(shape[0], -1))
     for length, weight in zip(shape[1:], weights[1:], strict=True):
         values = values.swapaxes(1, 2).reshape(parts, length, -1)  # the next axis comes first
         values = np.matmul(weight, values)

@@ -82,7 +82,8 @@ COMMANDS: dict[str, tuple[list[list[str]], dict[str, list[str] | None]]] = {
         "--lam": ["0:0.3", "10deg:25deg", "0.2"], "--sigma": ["0:0.2", "0.08"], "--V": ["5", "4:6"],
         "--stable": ["4:5", "5", "20:25"], "--V-max": ["10", "0"], "--csv": ["out.csv"], "--over": BETWEEN,
         "--free": BETWEEN, "--head-angle": ["68deg:74deg", "71deg"], "--trail": ["40mm:80mm"],
-        "--offset": ["0:80mm"], "-o": PICTURE, **SD, **SEVERAL,
+        "--offset": ["0:80mm"], "-o": PICTURE, "--certified": None, "--certificate": ["out.json"],
+        **SD, **SEVERAL,
     }),
     "sensitivity": ([], {
         "--lam": LAM, "--sigma": SIGMA, "--hold": ["trail", "offset", "sigma"], "--csv": ["out.csv"],
@@ -92,7 +93,8 @@ COMMANDS: dict[str, tuple[list[list[str]], dict[str, list[str] | None]]] = {
         "--lam": ["0.1:0.3", "0.2:0.2", "10deg:12deg"], "--sigma": ["0.05:0.1", "0.08:0.09"],
         "--V": ["3:6", "0:2", "5:5"], "--tolerance": TOLERANCE, "--cells": ["1", "2", "4"],
         "--head-angle": ["71deg", "71deg:73deg"], "--trail": ["50mm:60mm"], "--offset": ["0:80mm"],
-        "-o": ["out.json"], "-q": None, "--verify": ["a.yaml", "none.json"], **MACHINE,
+        "--jobs": ["1", "2", "0"], "--work": ["1", "50", "0"], "-o": ["out.json"], "-q": None,
+        "--verify": ["a.yaml", "none.json"], **MACHINE,
     }),
     "convert": ([BICYCLE], {
         "-o": ["out.json", "out.yaml", "out.ini", "out.txt"], "--force": None,
@@ -120,7 +122,7 @@ FRAMES: list[tuple[str, ...]] = [
 ]  # fmt: skip
 NEEDED: dict[str, list[tuple[str, ...]]] = {
     "vrange": FRAMES, "eigen": [*FRAMES, ("--over",), ("--push",)],
-    "design": [(), ("--over", "--over"), ("--free", "--free", "--sd", "--stable")],
+    "design": [(), ("--over", "--over"), ("--free", "--free", "--sd", "--stable"), ("--certified",)],
     "sensitivity": [("--lam", "--sigma"), ()],
     "certify": [("--lam", "--sigma", "--V"), ()], "export": [("--intervals",)],
 }  # fmt: skip
