@@ -124,7 +124,7 @@ def characteristic_table(
 
 def _columns(bicycle: Bicycle | Machines) -> int:
     """Those of V^0 … V^3, and of V^−1 where it is needed."""
-    return 5 if infinite_at_rest(dict(bicycle.gains)) else 4
+    return 5 if infinite_at_rest(dict(getattr(bicycle, "gains", ()))) else 4
 
 
 def in_powers(table: Floats) -> Floats:
