@@ -98,19 +98,23 @@ def columns(builds: tuple[Path, Path], pairs: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("revision", metavar="REV")
-    parser.add_argument("command", nargs=argparse.REMAINDER, metavar="COMMAND")
+    parser = argparse.ArgumentParser(  # what it does not know is the revision and the command with its options
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter, allow_abbrev=False,
+        usage="against.py REV [COMMAND...] [--now REV] [--pairs N] [--columns] [--minutes N]",
+    )  # fmt: skip
     parser.add_argument("--now", default="HEAD", metavar="REV")
     parser.add_argument("--pairs", type=int, default=7)
     parser.add_argument("--columns", action="store_true")
     parser.add_argument("--minutes", type=float, default=12.0, help="for all rows together (12)")
-    asked = parser.parse_args()
-    builds = built(asked.revision), built(asked.now)
+    asked, words = parser.parse_known_args()
+    if not words:
+        parser.error("which revision?")
+    revision, *command = words
+    builds = built(revision), built(asked.now)
     if asked.columns:
         columns(builds, asked.pairs)
         return
-    rows = {" ".join(asked.command): ("", 0.0)} if asked.command else ROWS
+    rows = {" ".join(command): ("", 0.0)} if command else ROWS
     end = perf_counter() + 60 * asked.minutes
     print("| command | before: wall [s] | now | ratio | before: processor [s] | now | ratio | pairs | aim |")
     print("|---|---:|---:|---:|---:|---:|---:|---:|---|")

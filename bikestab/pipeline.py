@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from bikestab.aside import meanwhile
+from bikestab.aside import meanwhile, turns
 from bikestab.config.file import load_config
 from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import InputError
@@ -18,10 +18,19 @@ from bikestab.scan.output import check_size
 from bikestab.volume import Volume
 
 if TYPE_CHECKING:
-    from bikestab.plot.pictures import Drawn
     from bikestab.scan.run import Progress
 
 MOST_DRAWN = 8  # machines of a sweep whose pictures are drawn
+
+
+class Drawn(NamedTuple):
+    """Pictures by their names, as the contents of files, and what is to be told.
+
+    None is the content of one that only the volume has.
+    """
+
+    files: dict[str, bytes | None]
+    told: list[str]
 
 
 class Scan(NamedTuple):
@@ -102,14 +111,28 @@ def scan(
     return Scan(done.path, tuple(paths), done.computed, done.points, done.stable_points)
 
 
-def drawing(config: ScanConfig) -> AbstractContextManager[Callable[[], Drawn | None]]:
-    """Begin with a scan's pictures, meanwhile if there is a core for it; the function waits for them.
+@contextmanager
+def drawing(config: ScanConfig) -> Iterator[Callable[[], Drawn | None]]:
+    """Begin with a scan's pictures, meanwhile if there is a core for it; the function draws what is left.
 
     It gives None for more machines than are drawn, which need no matplotlib.
     """
     if len(config.members) > MOST_DRAWN:
-        return nullcontext(lambda: None)
-    return meanwhile(partial(_drawn, config))
+        yield lambda: None
+        return
+    count = len(config.members) * (1 + 2 * len(config.slices))  # of pictures, at most
+
+    def joined(mine: dict[int, Drawn], others: dict[int, Drawn]) -> Drawn:
+        done = mine | others
+        done |= _drawn(config, (n for n in range(count) if n not in done))  # of a process that was ended
+        every = Drawn({}, [])
+        for _, one in sorted(done.items()):
+            every.files.update(one.files)
+            every.told.extend(one.told)
+        return every
+
+    with turns(count) as numbers, meanwhile(partial(_drawn, config, numbers)) as others:
+        yield lambda: joined(_drawn(config, numbers), others())
 
 
 def write_pictures(
@@ -154,10 +177,14 @@ def _written(volume: str | Path, files: Mapping[str, bytes]) -> list[Path]:
     return list(paths)
 
 
-def _drawn(config: ScanConfig) -> Drawn:
-    from bikestab.plot.pictures import draw_without_volume
+def _drawn(config: ScanConfig, numbers: Iterable[int]) -> dict[int, Drawn]:
+    """Pictures by their numbers."""
+    done = {}
+    for number in numbers:
+        from bikestab.plot.pictures import draw_without_volume  # not where there is nothing left to draw
 
-    return draw_without_volume(config)
+        done[number] = Drawn(*draw_without_volume(config, number))
+    return done
 
 
 def open_volume(path: str | Path) -> Volume:

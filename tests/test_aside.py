@@ -123,3 +123,17 @@ def test_it_ends_with_the_first_process_however_that_ends():
     assert len(out) == 1
     state = Path("/proc", out[0], "stat")
     assert not state.exists() or " Z " in state.read_text()
+
+
+@linux
+def test_turns():
+    """Two processes get each number once, and both get some."""
+    out, err = run("""
+        def task():
+            return [number for number in numbers if not time.sleep(0.01)]
+        with aside.turns(60) as numbers, meanwhile(task) as others:
+            mine = task()
+            theirs = others()
+        print(sorted(mine + theirs) == list(range(60)), bool(mine), bool(theirs))
+        """)
+    assert (out, err) == (["True"] * 3, "")

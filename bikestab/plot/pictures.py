@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -19,16 +20,6 @@ from bikestab.plot import region
 from bikestab.plot.files import drawn, slice_name
 from bikestab.plot.slices import draw_slice, on_grid
 from bikestab.volume import Volume
-
-
-class Drawn(NamedTuple):
-    """Pictures by their names, in order, as the contents of files, and what is to be told.
-
-    None is the content of one that shows what was drawn at random: only the volume has it.
-    """
-
-    files: dict[str, bytes | None]
-    told: list[str]
 
 
 @dataclass(frozen=True)
@@ -58,22 +49,26 @@ class _Picture(NamedTuple):
     value: float = 0.0
 
 
-def draw_without_volume(config: ScanConfig) -> Drawn:
-    """The pictures of a scan, but for those that only its volume has."""
-    done = Drawn({}, [])
-    for name, member, kind, fixed, value in _pictures(config):
+def draw_without_volume(config: ScanConfig, number: int) -> tuple[dict[str, bytes | None], list[str]]:
+    """One picture of a scan by its name, as the content of a file, and what is to be told.
+
+    None is the content of one that shows what was drawn at random: only the volume has it. With too high a
+    number there is none.
+    """
+    files: dict[str, bytes | None] = {}
+    for name, member, kind, fixed, value in islice(_pictures(config), number, number + 1):
         subject = _subject(config, member)
         if kind == "region":
             try:
-                done.files[name] = drawn(region.draw_region(subject))
+                files[name] = drawn(region.draw_region(subject))
             except Exception as error:  # the volume and the other pictures are worth more than this one
                 what = f"{subject.path.parent / name} cannot be drawn"
                 text = f"{type(error).__name__}: {error}".rstrip(": ")
-                done.told.append(f"warning: {what} ({text}); please report this")
+                return files, [f"warning: {what} ({text}); please report this"]
         else:
             is_there = kind == "growth_rate"
-            done.files[name] = drawn(draw_slice(subject, fixed, value)) if is_there else None
-    return done
+            files[name] = drawn(draw_slice(subject, fixed, value)) if is_there else None
+    return files, []
 
 
 def draw_from_volume(config: ScanConfig, path: str | Path) -> dict[str, bytes]:

@@ -27,9 +27,8 @@ from bikestab.spectrum import growth_rate_of
 from bikestab.volume import Subject, Volume, check_ranges
 
 PlaneField = Literal["growth_rate", "probability", "certified"]
-# per axis, for finding the curves, whose points are then moved onto the exact zero: each value of tilt and
-# trail together needs a table of its own in a plane of one speed
-_SAMPLES, _SAMPLES_OF_DESIGNS = 401, 201
+# per axis, for finding the curves, whose points are then moved onto the exact zero
+_SAMPLES = 201
 
 
 @own_settings()
@@ -100,7 +99,7 @@ def _probability(volume: Volume, fixed: Axis, value: float) -> Floats:
 
 def _stable_region(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Any]:
     """Dots where motion is stable, and its boundary; what the legend says of them."""
-    X, Y = _samples(section, x, y)
+    X, Y = _samples(x, y)
     table, V = section.table_and_speed(X[np.newaxis, :], Y[:, np.newaxis])
     inside = np.broadcast_to(violated(conditions(table, V)) == 0, (len(Y), len(X)))
     handles: list[Any] = []
@@ -120,15 +119,14 @@ def _stable_region(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Any
     return handles
 
 
-def _samples(section: Section, x: Floats, y: Floats) -> tuple[Floats, Floats]:
-    number = _SAMPLES_OF_DESIGNS if section.fixed == "V" else _SAMPLES
-    return np.linspace(x[0], x[-1], number), np.linspace(y[0], y[-1], number)
+def _samples(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    return np.linspace(x[0], x[-1], _SAMPLES), np.linspace(y[0], y[-1], _SAMPLES)
 
 
 def _edges(ax: Axes, section: Section, x: Floats, y: Floats, *, spread: bool = False) -> list[Line2D]:
     """Draw the boundary curves, thin where there is a ``spread`` around; what the legend says of them."""
     handles = []
-    for name, curves in edge_curves(section, list(EDGES), *_samples(section, x, y)).items():
+    for name, curves in edge_curves(section, list(EDGES), *_samples(x, y)).items():
         label, style = EDGES[name]
         if curves:
             lw, word = (1.2, ", no spread") if spread else (1.8, " boundary")
