@@ -98,7 +98,7 @@ def columns(builds: tuple[Path, Path], pairs: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(  # what it does not know is the revision and the command with its options
+    parser = argparse.ArgumentParser(  # the rest is the revision, and the command with its options
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter, allow_abbrev=False,
         usage="against.py REV [COMMAND...] [--now REV] [--pairs N] [--columns] [--minutes N]",
     )  # fmt: skip
