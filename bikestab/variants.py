@@ -136,14 +136,27 @@ def check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
     _, lam, sigma = varied(bicycle, values)
     check_tilt(float(lam), (fronts.get("tilt", fronts.get("offset", "lam")),))
     check_trail(float(sigma), (fronts.get("trail", fronts.get("offset", "sigma")),))
+    machine_at(bicycle, values)
+
+
+def machine_at(bicycle: Bicycle, values: Mapping[str, float]) -> tuple[Bicycle, float, float]:
+    """The machine with these values, λ [rad] and σ; measured as well as the bicycle in the same notation.
+
+    It is one of two parts where some are symbols that the notation does not have. Raises InputError, with the
+    parameter's name as key, for values that no machine can have.
+    """
+    _, tilt, trail = varied(bicycle, values)
+    lam, sigma = float(tilt), float(trail)
     rest = {name: value for name, value in values.items() if not front_of(bicycle, name)}
     given = {name: value for name, value in rest.items() if name in bicycle.notation}
     parts = {name: value for name, value in rest.items() if name not in given}
     machine = bicycle.replaced(given) if given else bicycle
-    if parts:
-        gone = superseded(parts, "sigma")  # R1 and R2 by R
-        own = {name: value for name, value in machine.numbers().items() if name not in gone}
-        Bicycle.from_mapping({**own, "lam": float(lam), "sigma": float(sigma), **parts})
+    if not parts:
+        return machine.measured(bicycle.deviations, bicycle.correlations, machine.notes), lam, sigma
+    gone = superseded(parts, "sigma")  # R1 and R2 by R
+    own = {name: value for name, value in machine.numbers().items() if name not in gone}
+    two = Bicycle.from_mapping({**own, "lam": lam, "sigma": sigma, **parts}, name=bicycle.name)
+    return two, lam, sigma
 
 
 def own_value(bicycle: Bicycle, name: str) -> float | None:

@@ -24,9 +24,10 @@ _BEYOND = 1.25  # where what is unbounded ends in the picture, of the largest en
 
 
 @own_settings()
-def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str) -> Figure:
-    """Machines by name with their designs' stable speeds; ``axis``, of AXES, is what varies, or empty.
+def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "") -> Figure:
+    """Machines by name with their designs' stable speeds; ``axis`` is the key of what varies, or empty.
 
+    ``label`` says what it is, if it is none of AXES.
     Raises InputError for more machines than there are lines that differ.
     """
     lines = lines_for(len(machines))
@@ -37,6 +38,7 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str) -> Figure:
     ax.tick_params(direction="in", top=True, right=True)
     if axis:
         _over(ax, machines, axis, lines, top)
+        ax.set_xlabel(label or AXES[axis], parse_math=False)
         legend_below(figure, [entry("V₁", color="0.3"), entry("V₂", color="0.3", lw=0.9)])
     else:
         _bars(ax, machines, lines, top)
@@ -64,7 +66,6 @@ def _over(
     values = [answer[axis] for _, answers in machines for answer in answers]
     ax.set_xlim(min(values), max(values))
     ax.set_ylim(0, top)
-    ax.set_xlabel(AXES[axis])
     ax.set_ylabel("speed V [m/s]")
     names = [name if x == x else f"{name}: never" for (name, _), (x, _) in zip(machines, last, strict=True)]
     ends = [(max(values), 0.0) if x != x else (x, V) for x, V in last]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_designs, is_single
@@ -14,24 +13,16 @@ from bikestab_cli.options import (
     json_option,
     over_option,
     sd_option,
-    tell_once,
-    tell_which,
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
-from bikestab_cli.parameters import MOST_VALUES
 from bikestab_cli.several import Chosen, Values, check_varied, machines_chosen, record_of, several_machines
-from bikestab_cli.vrange_words import Found, told_all, told_one, told_over
-
-from bikestab.errors import InputError
+from bikestab_cli.spreads import spreads, with_spreads
+from bikestab_cli.vrange_over import show_over
+from bikestab_cli.vrange_words import Found, told_all, told_one
 
 if TYPE_CHECKING:
-    from bikestab.bicycle import Bicycle
-    from bikestab.design.spread import Spread
     from bikestab.model import Model
-    from bikestab.region.answers import Answer
-
-MOST_SPREADS = 100  # designs at once
 
 
 @click.command("vrange")
@@ -68,7 +59,8 @@ def command(
     how one ends: "marginal", with the "reason".
 
     --over takes values of any one or two parameters: those of the bicycle's notation, a rider's, and lam,
-    head_angle, sigma, trail, offset, delta. What does not vary is as the bicycle has it.
+    head_angle, sigma, trail, offset, delta. What does not vary is as the bicycle has it. The picture of two
+    is over the one with more values, with a curve for each of the other's.
 
     --sd tells what standard deviations of parameters leave of that: in how many of 20 000 machines drawn at
     random there is a stable speed, and where nine tenths of the ends lie ('bikestab sensitivity' says more).
@@ -90,14 +82,18 @@ def command(
       bikestab vrange --bicycle meijaard2007 --bicycle kooijman2011
       bikestab vrange --bicycle meijaard2007 --set mB=60,75,100
       bikestab vrange --bicycle meijaard2007 --over mB=60:110:6 --over offset=0:80mm:5
+      bikestab vrange --bicycle meijaard2007 --over mB=60:110:51 --over offset=0:60mm:4 -o loads.png
       bikestab vrange --bicycle meijaard2007 --bicycle sharp1971 --trail 0:15cm:151 -o ends.png
     """
     check_files(output)
     machines = machines_chosen(bicycle_name, delta, changes, given)
     if over:
+        if given:
+            problem = "--over says what varies: set the rest with --set, as --set lam=18deg"
+            raise click.UsageError(problem, click.get_current_context())
         for machine in machines:
             check_varied(machine.bicycle, over, changes, delta)
-        _over(machines, over, model, as_json, given or any(deviations) or output)
+        show_over(machines, over, model, deviations, output, as_json)
         return
     axis = _axis_drawn(given) if output else ""
     single = is_single(given) and len(machines) == 1
@@ -110,40 +106,13 @@ def command(
         save(draw_ends([(each.machine.words, each.answers) for each in found], axis), Path(output))
         files["picture"] = output
     if as_json:
-        print_json(record_of(machines, model, [_results(each) for each in found], files))
+        print_json(
+            record_of(machines, model, [with_spreads(each.answers, each.spreads) for each in found], files)
+        )
     elif output:
         tell_file(output)
     else:
         click.echo(told_one(found[0], model, single) if len(machines) == 1 else told_all(found, model))
-
-
-def _over(
-    machines: list[Chosen], over: dict[str, list[float]], model: Model, as_json: bool, others: object
-) -> None:
-    """Tell of every combination of the parameters' values."""
-    from bikestab.region.answers import stable_speeds_over
-
-    context = click.get_current_context()
-    if others:
-        problem = (
-            "--over says what varies: set the rest with --set, as --set lam=18deg, and leave out --sd and -o"
-        )
-        raise click.UsageError(problem, context)
-    if math.prod(len(values) for values in over.values()) > MOST_VALUES:
-        raise click.UsageError(f"--over gives more than {MOST_VALUES} designs", context)
-    points = []
-    for machine in machines:
-        try:
-            points.append(stable_speeds_over(machine.bicycle, over, model=model))
-        except InputError as error:
-            problem = ": ".join([str(error.key[0]), error.problem]) if error.key else error.problem
-            raise click.BadParameter(f"{problem}; {error.hint}", param_hint="--over") from None
-    if as_json:
-        results = [[{"over": point, **answer} for point, answer in each] for each in points]
-        print_json(record_of(machines, model, results))
-    else:
-        told = (told_over(machine, each, model) for machine, each in zip(machines, points, strict=True))
-        click.echo("\n\n".join(told))
 
 
 def _found(
@@ -158,7 +127,8 @@ def _found(
         answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=nearest)
     least = [min((answer[name] for answer in answers), key=abs) for name in ("lam", "sigma")]
     doubt_designs(given, least[0], least[1], bicycle.c)
-    return Found(machine, answers, _spreads(answers, bicycle, model, *deviations))
+    designs = [(bicycle, answer["lam"], answer["sigma"]) for answer in answers]
+    return Found(machine, answers, spreads(bicycle, designs, model, *deviations))
 
 
 def _axis_drawn(given: Given) -> str:
@@ -170,43 +140,3 @@ def _axis_drawn(given: Given) -> str:
         )
         raise click.BadParameter(problem, param_hint="--output")
     return {"head_angle": "head_angle_deg"}.get(ranges[0], ranges[0]) if ranges else ""
-
-
-def _results(found: Found) -> list[dict[str, Any]]:
-    from bikestab.design.spread import plain
-
-    known = [{"spread": plain(spread)} for spread in found.spreads] or [{}] * len(found.answers)
-    return [{**answer, **more} for answer, more in zip(found.answers, known, strict=True)]
-
-
-def _spreads(
-    answers: list[Answer], bicycle: Bicycle, model: Model, of_file: bool, given: dict[str, float]
-) -> list[Spread]:
-    """How far each design's stable speeds are known; none where no standard deviation is asked for."""
-    if not (of_file or given):
-        if any(sd > 0 for sd in bicycle.deviations.values()):
-            text = "the file has standard deviations: --sd file tells what they leave of the digits"
-            tell_once(f"note: {bicycle.name}: {text}")
-        return []
-    from bikestab_cli.spread_words import tell_rider
-
-    from bikestab.design.sensitivity import sensitivity
-    from bikestab.design.spread import own_spread
-    from bikestab.plausible import deviation_doubts
-
-    tell_which(bicycle, given)
-    tell_rider(bicycle, {**(bicycle.deviations if of_file else {}), **given})
-    for text in deviation_doubts(bicycle, given):
-        tell_once(f"warning: {text}")
-    if len(answers) > MOST_SPREADS:
-        problem = f"--sd draws machines for each design, and {len(answers)} are too many"
-        raise click.UsageError(f"{problem}; allowed: {MOST_SPREADS}", click.get_current_context())
-    spreads = []
-    with told_as_options():
-        for answer in answers:
-            found = sensitivity(bicycle, answer["lam"], answer["sigma"], model=model)
-            spreads.append(own_spread(found, of_file=of_file, given=given))
-    if None in spreads:
-        problem = f"the bicycle {bicycle.name!r} has no standard deviations in its file"
-        raise click.BadParameter(f"{problem}; give some, for example --sd mB=1.5", param_hint="--sd")
-    return [known for known in spreads if known]

@@ -61,16 +61,27 @@ def told_all(found: list[Found], model: Model) -> str:
     return "\n".join([f"{model} model\n", table(["machine", *_HEAD], rows, fold=0), *map(prose, notes)])
 
 
-def told_over(machine: Chosen, points: Sequence[tuple[dict[str, float], Answer]], model: Model) -> str:
+def told_over(
+    machine: Chosen,
+    points: Sequence[tuple[dict[str, float], Answer]],
+    model: Model,
+    spreads: Sequence[Spread],
+) -> str:
     """The table of values of parameters: these, what else a frame is measured by, and the stable speeds."""
+    from bikestab_cli.spread_words import known_lines
+
     from bikestab.variants import parameter_of
 
     named = [parameter_of(machine.bicycle, name) for name in points[0][0]]
-    open_ = []
-    for point, answer in points:
-        if answer["marginal"]:
-            where = ", ".join(f"{name} = {value:.6g}" for name, value in point.items())
-            open_.append(f"marginal at {where}: {answer['reason']}")
+    places = [", ".join(f"{name} = {value:.6g}" for name, value in point.items()) for point, _ in points]
+    notes = [
+        f"marginal at {place}: {answer['reason']}"
+        for place, (_, answer) in zip(places, points, strict=True)
+        if answer["marginal"]
+    ]
+    notes += [
+        f"{place}: {'; '.join(known_lines(known))}" for place, known in zip(places, spreads, strict=False)
+    ]
     head = [f"{p.name}\n[{p.unit}]" if p.unit != "1" else p.name for p in named]
     changed = f" ({machine.changes})" if machine.set else ""
     for digits in range(_FEWER, _FEWEST - 1, -1):
@@ -78,7 +89,7 @@ def told_over(machine: Chosen, points: Sequence[tuple[dict[str, float], Answer]]
         if max(map(len, told.split("\n"))) <= WIDTH:
             break
     text = [heading(machine.bicycle, model, points[0][0]) + changed + "\n", told]
-    return "\n".join([*text, *map(prose, open_)])
+    return "\n".join([*text, *map(prose, notes)])
 
 
 def _rows_over(points: Sequence[tuple[dict[str, float], Answer]], digits: int) -> list[list[str]]:

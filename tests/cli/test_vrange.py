@@ -512,3 +512,27 @@ def test_a_table_over_gains_has_80_columns(bikestab):
     code, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", *args)
     assert code == 0
     assert max(map(len, out.splitlines())) <= 80
+
+
+def test_over_with_deviations_and_as_a_picture(bikestab):
+    benchmark = ("--bicycle", "meijaard2007")
+    args = ("vrange", *benchmark, "--over", "mB=60:110:3", "--sd", "c=10mm", "--sd", "mB=2")
+    code, out, err = bikestab(*args)
+    assert (code, err) == (0, "note: meijaard2007: c is the trail along the ground\n")
+    assert "mB = 85: stable speeds exist in 100.0% of machines" in out
+    assert max(map(len, out.splitlines())) <= 80
+    results = json.loads(bikestab(*args, "--json")[1])["results"]
+    alone = json.loads(
+        bikestab(*(arg for arg in args if "mB=60" not in arg and arg != "--over"), "--json")[1]
+    )
+    assert results[1]["spread"] == alone["results"][0]["spread"]
+    assert results[0]["spread"]["V1"]["own"] < results[2]["spread"]["V1"]["own"]
+    code, out, err = bikestab(*args[:3], "--over", "mB=60:110:5", "--over", "offset=0:60mm:2", "-o", "a.png")
+    assert (code, out, err) == (0, "a.png\n", "")
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
+    code, out, err = bikestab(*args[:3], "--over", "m1=60:110:2", "--sd", "c=10mm")
+    assert (code, out) == (2, "")
+    assert "--over m1 is not of the bicycle's notation" in err
+    code, out, err = bikestab(*args[:3], "--over", "mB=60:110:2", "--lam", "0.3")
+    assert (code, out) == (2, "")
+    assert "--over says what varies" in err

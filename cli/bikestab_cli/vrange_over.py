@@ -1,0 +1,100 @@
+"""vrange --over: the stable speeds at every combination of values of one or two parameters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.parameters import MOST_VALUES
+from bikestab_cli.several import Chosen, record_of
+from bikestab_cli.spreads import spreads, with_spreads
+from bikestab_cli.vrange_words import told_over
+
+from bikestab.errors import InputError
+
+if TYPE_CHECKING:
+    from bikestab.design.spread import Spread
+    from bikestab.model import Model
+    from bikestab.region.answers import Answer
+
+Points = list[tuple[dict[str, float], "Answer"]]
+
+
+def show_over(
+    machines: list[Chosen], over: dict[str, list[float]], model: Model,
+    deviations: tuple[bool, dict[str, float]], output: str | None, as_json: bool,
+) -> None:  # fmt: skip
+    """Tell of every combination of the parameters' values, or draw it."""
+    if math.prod(len(values) for values in over.values()) > MOST_VALUES:
+        context = click.get_current_context()
+        raise click.UsageError(f"--over gives more than {MOST_VALUES} designs", context)
+    points = [_points(machine, over, model) for machine in machines]
+    known = [
+        _spreads(machine, each, model, deviations) for machine, each in zip(machines, points, strict=True)
+    ]
+    files = {}
+    if output:
+        _draw(machines, points, over, output)
+        files["picture"] = output
+    if as_json:
+        answers = [[{"over": point, **answer} for point, answer in each] for each in points]
+        results = [with_spreads(each, own) for each, own in zip(answers, known, strict=True)]
+        print_json(record_of(machines, model, results, files))
+    elif output:
+        tell_file(output)
+    else:
+        parts = zip(machines, points, known, strict=True)
+        click.echo("\n\n".join(told_over(machine, each, model, own) for machine, each, own in parts))
+
+
+def _points(machine: Chosen, over: dict[str, list[float]], model: Model) -> Points:
+    from bikestab.region.answers import stable_speeds_over
+
+    try:
+        return stable_speeds_over(machine.bicycle, over, model=model)
+    except InputError as error:
+        problem = ": ".join([str(error.key[0]), error.problem]) if error.key else error.problem
+        raise click.BadParameter(f"{problem}; {error.hint}", param_hint="--over") from None
+
+
+def _spreads(
+    machine: Chosen, points: Points, model: Model, deviations: tuple[bool, dict[str, float]]
+) -> list[Spread]:
+    from bikestab.variants import FRONT, machine_at
+
+    bicycle = machine.bicycle
+    designs = []
+    if any(deviations):
+        for name in points[0][0]:
+            if name not in bicycle.notation and name not in FRONT:
+                problem = f"--over {name} is not of the bicycle's notation, of which standard deviations are"
+                raise click.BadParameter(problem, param_hint="--sd")
+        designs = [machine_at(bicycle, point) for point, _ in points]
+    return spreads(bicycle, designs, model, *deviations)
+
+
+def _draw(
+    machines: Sequence[Chosen], points: Sequence[Points], over: Mapping[str, list[float]], output: str
+) -> None:
+    """Over the parameter with the most values, a curve for each value of the other one."""
+    from bikestab.plot.ends import AXES, draw_ends
+    from bikestab.plot.files import save
+    from bikestab.variants import parameter_of
+
+    along = max(over, key=lambda name: len(over[name]))
+    axis = {"head_angle": "head_angle_deg"}.get(along, along) if len(over[along]) > 1 else ""
+    curves: dict[str, list[dict[str, Any]]] = {}
+    for machine, each in zip(machines, points, strict=True):
+        for point, answer in each:
+            others = [parameter_of(machine.bicycle, name) for name in point if name != along or not axis]
+            values = [f"{p.name} = {point[p.name]:.4g} {p.unit}".removesuffix(" 1") for p in others]
+            whose = [machine.words] if len(machines) > 1 or not values else []
+            own = {} if axis in AXES else {along: point[along]}
+            curves.setdefault(", ".join([*whose, *values]), []).append({**answer, **own})
+    p = parameter_of(machines[0].bicycle, along)
+    label = "" if axis in AXES else f"{p.meaning} {p.name} [{p.unit}]"
+    save(draw_ends(list(curves.items()), axis, label), Path(output))
