@@ -7,7 +7,7 @@ from mpmath import mp, mpf
 import bikestab as bs
 from bikestab.family import Family
 from bikestab.region.curves import trace
-from bikestab.region.points import WITHIN, points_of
+from bikestab.region.points import WITHIN, _solved, points_of
 from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
 from tests.region.test_curves import derivative
 
@@ -83,3 +83,54 @@ def test_places_in_40_digits(found, which):
             )
             away = [abs(a - b) for a, b in zip(exact, start, strict=True)]
         assert max(away) < 1e-10, (point, [float(x) for x in away])
+
+
+CUSP = bs.Bicycle.preset("dikarev1981").replaced(
+    {
+        "c": 1.414332, "m1": 217.4492, "l1": 0.4797552, "h1": 0.615696, "A1": 21.62, "B1": 21.06941,
+        "D1": -1.735447, "C1": 1.050759, "R1": 0.3048, "m2": 30.6472, "l2": 1.359504, "h2": 0.4164403,
+        "A2": 1.070599, "B2": 0.605192, "D2": 0.3202889, "C2": 0.7185835, "R2": 0.3048,
+    }
+)  # fmt: skip
+
+
+def test_a_cusp_of_the_fold_in_40_digits():
+    """A motorcycle with less roll inertia: three weave speeds meet at λ = 0.0094, σ = 0.0859, 4.63 m/s."""
+    family = Family(CUSP.with_delta(1.0))
+    size = np.array([0.6, 0.4])
+    point = _solved(family, np.array([0.0094, 0.0862]), 4.5, ("fold",), size)
+    assert point.name == "cusp of the fold"
+    s = bs.eigenvalues(family.bicycle, point.V, point.x, point.y)
+    assert sorted(np.abs(s.real) < 1e-4) == [False, False, True, True]
+    assert max(s.real) < 1e-4
+    exact = {name: mpf(x) for name, x in CUSP.numbers().items() if x is not None}
+
+    def equations(lam, sigma, V):
+        h = condition_polynomials(polynomial(exact, lam, sigma, 1.0, "refined"))["hurwitz3"]
+        return [at(h, V), at(derivative(h), V), at(derivative(derivative(h)), V)]
+
+    with mp.workdps(40):
+        found = mp.findroot(equations, [point.x, point.y, point.V], tol=1e-25, verify=False, maxsteps=15)
+        away = [abs(a - b) for a, b in zip(found, [point.x, point.y, point.V], strict=True)]
+    assert max(away[:2]) < 1e-10
+    assert away[2] < 1e-8  # of a triple root
+
+
+class Resonant:
+    """p4 = 1, p3 = V − 2 + x, p2 = 2 + x + y, p1 = V − 2 + y, p0 = 1: at x = y = 0 and V = 2 (s² + 1)²."""
+
+    def table(self, x, y):
+        x, y = np.broadcast_arrays(x, y)
+        table = np.zeros((5, 4, *x.shape))
+        table[4, 0], table[0, 0], table[2, 0] = 1, 1, 2 + x + y
+        table[3, :2] = x - 2, np.ones(x.shape)
+        table[1, :2] = y - 2, np.ones(x.shape)
+        return table
+
+
+def test_a_double_hopf_point():
+    point = _solved(Resonant(), np.array([0.004, -0.007]), 2.1, ("fold",), np.array([1.0, 1.0]))
+    assert point.name == "double Hopf"
+    assert np.abs([point.x, point.y, point.V - 2]).max() < 1e-10
+    p = Resonant().table(point.x, point.y) @ point.V ** np.arange(4.0)
+    assert np.abs(np.abs(np.roots(p[::-1]).imag) - 1).max() < 1e-4
