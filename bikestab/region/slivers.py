@@ -10,7 +10,8 @@ from bikestab.region.events import Box
 from bikestab.region.patches import Partition
 from bikestab.region.triangulation import Index
 
-_NEAR = 0.02  # of the box's speeds: so far from each other may the ends over two corners be
+_NEAR = 0.02  # of the box's speeds: so far from each other may the ends over two corners be,
+_STEEP = 5  # or by so many times the way between these
 _LITTLE = 1e-4  # of the box's speeds: so much of what is stable may be left out
 
 
@@ -59,7 +60,7 @@ def _lent(
     columns = plane.columns
     V = np.empty((2, 3, columns.V.shape[2]))
     lent = columns.has()[triangle, structure]
-    lenders, near = triangle[lent], _NEAR * (box.V[1] - box.V[0])
+    lenders, speeds = triangle[lent], box.V[1] - box.V[0]
     for corner, point in enumerate(triangle.tolist()):
         if lent[corner]:
             V[:, corner] = columns.V[:, columns.record[point, structure]]
@@ -67,6 +68,7 @@ def _lent(
         away = plane.length(np.column_stack([lenders, np.full(len(lenders), point)]))
         for i in np.argsort(away, kind="stable"):  # ends may change much between a corner and the nearest
             record, beside = int(columns.record[lenders[i], structure]), bool(away[i] < small)
+            near = max(_NEAR, _STEEP * away[i]) * speeds
             V[:, corner] = columns.alike(point, record, structure, near, beside=beside, any_kind=any_kind)
             if np.isfinite(V[:, corner]).all():
                 break

@@ -244,6 +244,15 @@ def test_an_interval_that_closes_at_two_corners_of_a_sliver():
     assert away_from_surface(family, ends, mesh) < 1e-9
 
 
+def test_a_long_sliver_beside_a_steep_surface():
+    """Ends over its corners are further apart than elsewhere; it then got a corner of no surface."""
+    family, ends = next(islice(pairs(320, seed=2), 66, None))
+    mesh = region_mesh(family, *ends, cells=20)
+    assert len(mesh.triangles) > 1000
+    assert open_edges(mesh, ends) == 0
+    assert away_from_surface(family, ends, mesh) < 1e-9
+
+
 def test_a_curve_that_turns_within_a_cell():
     """Its end was then looked for along the cell's chord, and found outside of the box."""
     family, ends = next(islice(pairs(320, seed=1), 280, None))
