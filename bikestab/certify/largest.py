@@ -6,14 +6,16 @@ largest is found by halving; a box counts when it is proved, whatever the boxes 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from bikestab.bicycle import Bicycle
-from bikestab.certify.proof import Proof, prove
+from bikestab.certify.box import Box, box_of
+from bikestab.certify.proof import Proof
+from bikestab.certify.search import search
 from bikestab.errors import InputError, nearest
 from bikestab.letters import Model
 from bikestab.model import exact_table
@@ -22,11 +24,13 @@ from bikestab.stability import growth_rate, stable_intervals
 from bikestab.variants import front_of, varied
 
 FARTHEST = 100.0  # times the sides; a larger box is not looked for
+MOST_BLOCKS = 20_000  # that are looked at for one box
 _LEAST = 2.0**-20
 _CLOSE = 1.002  # the factor proved, and the next that is not, as a ratio
 _CELLS = 32  # along tilt, trail and speed
 _PARTS = (1, 4, 16, 8, 4, 2, 2)  # of each tolerance, by their number: blocks are few around a box's corner
 _BOX = ("lam", "sigma", "V")
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -78,16 +82,25 @@ class Around:
         place = {"lam": at.get("lam", self.lam), "sigma": at.get("sigma", self.sigma)}
         return float(growth_rate(machine, V, **place, model=self.model))
 
-    def proof(self, factor: float) -> Proof:
-        """What is proved of the box with so many times these sides. InputError where there is none."""
+    def box(self, factor: float) -> Box:
+        """The box with so many times these sides. InputError where there is none."""
         ends = self.ends(factor)
-        edges = [
+        lam, sigma, V = (
             np.linspace(*ends[name], _CELLS + 1 if ends[name][0] < ends[name][1] else 2) for name in _BOX
-        ]
-        tolerances = {name: pair for name, pair in ends.items() if name not in _BOX}
-        return prove(
-            self.bicycle, *edges, model=self.model, tolerances=tolerances, parts=_PARTS, only_stable=True
         )
+        tolerances = {name: pair for name, pair in ends.items() if name not in _BOX}
+        return box_of(self.bicycle, lam, sigma, V, self.model, tolerances, _PARTS)
+
+    def proof(self, factor: float) -> Proof | None:
+        """The proof that this box is stable.
+
+        None for one that has an unstable corner, is undecided, or takes more than MOST_BLOCKS.
+        """
+        box = self.box(factor)
+        if self.unstable_corner(factor):
+            return None
+        proof = Proof(box, search(box.prover(), most_blocks=MOST_BLOCKS, only_stable=True))
+        return proof if proof.verdict == "stable" else None
 
 
 class Largest(NamedTuple):
@@ -115,13 +128,13 @@ def largest_box(around: Around) -> Largest:
     """
     if not any(side > 0 for side in around.sides.values()):
         raise InputError("no side of the box grows", key=("sd",), hint="give one, such as trail=5mm")
-    if around.proof(0.0).verdict != "stable":
+    if not around.proof(0.0):
         raise _not_stable(around)
     held: tuple[float, Proof] | None = None
     factor, failed, why = 1.0, None, ""
     while failed is None or held is None or failed > held[0] * _CLOSE:
-        found, problem = _tried(around, factor)
-        if found is not None and found.verdict == "stable":
+        found, problem = _tried(around.proof, factor)
+        if found:
             held = factor, found
         else:
             failed, why = factor, problem
@@ -132,7 +145,9 @@ def largest_box(around: Around) -> Largest:
         elif held is None:
             factor /= 2
             if factor < _LEAST:
-                raise InputError("no box of these sides is proved stable", key=("sd",), hint=f"{why}")
+                raise InputError(
+                    "no box of these sides is proved stable", key=("sd",), hint=why or "try others"
+                )
         elif failed is not None:
             factor = 0.5 * (held[0] + failed)
     spoiled, point = (None, None) if failed is None or why else _spoiled(around, held[0], failed)
@@ -144,7 +159,7 @@ def _spoiled(around: Around, held: float, failed: float) -> tuple[float | None, 
     low, high = held, failed
     while not (point := around.unstable_corner(high)):
         low, high = high, 2 * high
-        if high > FARTHEST:
+        if high > FARTHEST or _tried(around.box, high)[1]:
             return None, None
     while high > low * _CLOSE and high > failed:
         middle = 0.5 * (low + high)
@@ -153,10 +168,10 @@ def _spoiled(around: Around, held: float, failed: float) -> tuple[float | None, 
     return high, point
 
 
-def _tried(around: Around, factor: float) -> tuple[Proof | None, str]:
-    """The proof of a box, or why there is no such box."""
+def _tried(ask: Callable[[float], T], factor: float) -> tuple[T | None, str]:
+    """What is asked of a box, or why there is no such box."""
     try:
-        return around.proof(factor), ""
+        return ask(factor), ""
     except InputError as error:
         return None, f"{'.'.join(map(str, error.key))}: {error.problem}"
 

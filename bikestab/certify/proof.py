@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.certify.bernstein import Floats
-from bikestab.certify.box import PARTS, Box, box_of
+from bikestab.certify.box import Box, box_of
 from bikestab.certify.search import STABLE, UNDECIDED, UNSTABLE, Decided, search
 from bikestab.letters import PARAMETERS, Model
 from bikestab.stability import eigenvalues
@@ -154,16 +154,12 @@ def prove(
     *,
     model: Model = "refined",
     tolerances: Mapping[str, tuple[float, float]] | None = None,
-    parts: Sequence[int] = PARTS,
-    only_stable: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Proof:
     """Prove cells between the edges ``lam`` [rad], ``sigma``, ``V`` [m/s] stable or unstable.
 
     ``tolerances`` are ranges of parameters in the bicycle's notation, within which a cell must be so for
-    every machine; ``parts`` has into how many each is cut, by their number. One value is given twice. With
-    ``only_stable`` it ends where it is seen that not all can be proved stable. Raises InputError as
-    ``box_of``.
+    every machine. One value is given twice. Raises InputError as ``box_of``.
     """
-    box = box_of(bicycle, lam, sigma, V, model, tolerances or {}, parts)
-    return Proof(box, search(box.prover(), only_stable=only_stable, progress=progress))
+    box = box_of(bicycle, lam, sigma, V, model, tolerances or {})
+    return Proof(box, search(box.prover(), progress=progress))

@@ -89,6 +89,9 @@ def _around(
         raise InputError(problem, key=(missing,), hint=f"give --{missing}, one value")
     of_file, typed = deviations
     known = {name: sd for name, sd in bicycle.deviations.items() if sd > 0} if of_file else {}
+    if of_file and not known and not typed:
+        problem = f"the bicycle {bicycle.name!r} has no standard deviations in its file"
+        raise InputError(problem, key=("sd",), hint="give some, for example --sd trail=5mm")
     V_max, judged, stable = speeds
     if judged and judged[0] != judged[1]:
         raise InputError("is one speed of the box", key=("judged",), hint="a range is --stable")

@@ -2,6 +2,8 @@
 
 import json
 import math
+import random
+from collections import Counter
 from itertools import product
 
 import numpy as np
@@ -17,6 +19,7 @@ from bikestab.errors import InputError
 from bikestab.model import exact_table
 from bikestab.speeds import intervals_of
 from bikestab.stability import eigenvalues
+from tests.references import verify_proofs
 
 BENCHMARK, PAPER = Bicycle.preset("meijaard2007"), Bicycle.preset("dikarev1981")
 OWN = BENCHMARK.lam, BENCHMARK.sigma
@@ -62,6 +65,30 @@ def test_all_of_it_is_stable_and_little_more(bicycle, design, sides, stable, clo
     roots = eigenvalues(machine, V, lam=lam, sigma=sigma)
     assert roots.real.max() == pytest.approx(rate, rel=1e-6)
     assert rate > 0
+
+
+def largest_of(machine):
+    """The largest box around a random machine with one or two other parameters, None if it is not stable."""
+    rng = random.Random(machine)
+    bicycle, lam, sigma = verify_proofs.random_bicycle(rng)
+    names = [k for k, v in bicycle.given.items() if v and k[0] in "mhABI" and not k.endswith("yy")]
+    sides = {name: abs(bicycle.given[name]) / 100 for name in rng.sample(names, rng.choice([0, 1, 2]))}
+    try:
+        around = around_design(bicycle, "refined", (lam, sigma), {"sigma": 0.01, "lam": 0.02, **sides}, None)
+    except InputError:  # no stable speed
+        return None
+    return largest_box(around)
+
+
+def test_boxes_of_random_machines_in_400_bits():
+    counts = Counter()
+    for machine in range(8, 18):
+        if found := largest_of(machine):
+            counts["boxes"] += 1
+            verify_proofs.compare(found.proof, random.Random(1), counts, 3)
+    assert counts["boxes"] >= 4
+    assert counts["points"] > 400
+    assert counts["WRONG"] == 0
 
 
 def test_its_proof_is_checked():

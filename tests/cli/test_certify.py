@@ -188,6 +188,7 @@ def test_the_largest_box_of_design(bikestab, tmp_path):
         (["--certified", "--bicycle", "meijaard2007", "--stable", "1:2"], "from 4.292 to 6.024 m/s"),
         (["--certified", "--bicycle", "meijaard2007", "--V", "1:2"], "a range is --stable"),
         (["--certified", "--bicycle", "meijaard2007", "--sd", "offset=1mm"], "give head_angle and trail"),
+        (["--certified", "--bicycle", "meijaard2007", "--sd", "file"], "no standard deviations in its file"),
         (["--certificate", "x.json"], "is of the box that --certified finds"),
     ],
 )
