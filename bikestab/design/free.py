@@ -98,7 +98,8 @@ class Free:
 class FreeDesign(Design):
     """A design, its free parameters in ``over``, its widest interval, and the growth rate as judged.
 
-    ``at`` says at which limits it lies.
+    The interval is one that is stable as asked, where there is one. ``at`` says at which limits it lies, or
+    that it is not stable as asked.
     """
 
     over: dict[str, float]
@@ -131,6 +132,14 @@ class FreeBest(NamedTuple):
     lowest_V1: FreeDesign | None
     fastest_decay: FreeDesign | None
     most_robust: RobustDesign | None
+
+    @property
+    def designs(self) -> dict[str, FreeDesign]:
+        """Those that there are, by what they are called in tables and pictures."""
+        robust = self.most_robust and self.most_robust["design"]
+        named = {"own": self.own, "widest": self.widest, "lowest V1": self.lowest_V1}
+        named |= {"fastest decay": self.fastest_decay, "most robust": robust}
+        return {name: design for name, design in named.items() if design}
 
 
 def best_free(free: Free, deviations: Mapping[str, float] | None = None) -> FreeBest:
@@ -188,15 +197,20 @@ def free_design(free: Free, x: Floats) -> FreeDesign:
     """A design (n,) as a record."""
     found = counted(free, free.table(x[:, np.newaxis]))
     V, rate = judged(free, free.table(x[:, np.newaxis]), found, rounds=7)
-    k = int(np.argmax(np.where(found.counts, found.width, -1)[0]))
+    wide = np.minimum(found.intervals.V2, free.V_max) - found.intervals.V1  # of those too that do not count
+    some = found.counts[0].any()
+    k = int(np.argmax(np.where(found.counts if some else wide > 0, wide, -1)[0]))
     V1, V2, lower, upper = (values[0, k] for values in found.intervals)
+    low, high = free.box
+    at = _place(free, x) if some else "not stable as asked"
+    at = at if np.all((low <= x) & (x <= high)) else f"outside of what is searched{'' if some else f', {at}'}"
     machine, lam, sigma = varied(free.bicycle, dict(zip(free.ends, x.tolist(), strict=True)))
     return {
         **design_record(float(lam), float(sigma), machine),
-        "over": dict(zip(free.ends, x.tolist(), strict=True)), "at": _place(free, x),
+        "over": dict(zip(free.ends, x.tolist(), strict=True)), "at": at,
         "V1": finite(V1), "V2": finite(V2),
         "lower": KINDS[lower] if upper else None, "upper": KINDS[upper] if upper else None,
-        "width": float(found.width[0, k]), "growth_rate": finite(rate[0]), "V": float(V[0]),
+        "width": max(float(np.nan_to_num(wide[0, k])), 0.0), "growth_rate": finite(rate[0]), "V": float(V[0]),
     }  # fmt: skip
 
 

@@ -89,10 +89,18 @@ if TYPE_CHECKING:
 )
 @several_machines
 @click.option(
-    "-o", "--output", type=FILE, metavar="FILE", help="Draw the plane of designs as PNG, PDF or SVG."
+    "-o",
+    "--output",
+    type=FILE,
+    metavar="FILE",
+    help="Draw the plane of designs, or what --free found, as PNG, PDF or SVG.",
 )
 @click.option(
-    "--csv", "csv_file", type=FILE, metavar="FILE", help="Write the Pareto front at full precision."
+    "--csv",
+    "csv_file",
+    type=FILE,
+    metavar="FILE",
+    help="Write the Pareto front, or what --free found, at full precision.",
 )
 @json_option
 def command(
@@ -172,9 +180,9 @@ def command(
     if free or any(deviations):
         from bikestab_cli.free import check_free, tell_free
 
-        check_free(free, over or output or csv_file)
+        check_free(free, over)
         machines = machines_chosen(bicycle_name, delta, changes)
-        tell_free(machines, free, deviations, model, (V_max, judged, stable), as_json)
+        tell_free(machines, free, deviations, model, (V_max, judged, stable), output, csv_file, as_json)
         return
     x, y = _axes(over)
     if head_angle:

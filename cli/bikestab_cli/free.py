@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import Ends, told_as_options
-from bikestab_cli.output import heading, print_json, prose, table, within
+from bikestab_cli.options import Ends, check_files, told_as_options
+from bikestab_cli.output import heading, print_json, prose, table, tell_file, within
 from bikestab_cli.several import Chosen, record_of
 
+from bikestab.files import to_stdout
 from bikestab.variants import parameter_of
 
 if TYPE_CHECKING:
@@ -24,23 +26,27 @@ def check_free(free: dict[str, Ends], others: object) -> None:
     fixed = ("lam", "sigma", "trail", "head_angle", "offset")
     default = click.core.ParameterSource.DEFAULT
     if others or any(context.get_parameter_source(name) != default for name in fixed):
-        problem = (
-            "--free says all that is searched: leave out the options of tilt and trail, --over, -o, --csv"
-        )
+        problem = "--free says all that is searched: leave out the options of tilt and trail, and --over"
         raise click.UsageError(problem, context)
 
 
 def tell_free(
     machines: list[Chosen], ends: dict[str, Ends], deviations: tuple[bool, dict[str, float]], model: Model,
-    speeds: tuple[float, Ends | None, Ends | None], as_json: bool,
+    speeds: tuple[float, Ends | None, Ends | None], output: str | None, csv_file: str | None, as_json: bool,
 ) -> None:  # fmt: skip
-    """Search over several free parameters and tell what was found."""
+    """Search over several free parameters, and tell what was found, draw it and write it."""
     from bikestab.design.free import Free, best_free
+    from bikestab.export.optima import optima_blocks, optima_columns
+    from bikestab.export.tables import of_machines, save_csv
+
+    if output and len(machines) > 1:
+        raise click.BadParameter("this picture is of one machine", param_hint="--output")
+    check_files(csv_file, output)
 
     V_max, judged, stable = speeds
     of_file, given = deviations
     named = dict.fromkeys(ends, "--free")
-    results, told = [], []
+    results, told, bests = [], [], []
     for machine in machines:
         known = {name: sd for name, sd in machine.bicycle.deviations.items() if sd > 0} if of_file else {}
         with told_as_options(judged="--V", V_max="--V-max", **named):
@@ -49,10 +55,26 @@ def tell_free(
         searched = {**ends, "V_max": V_max, "judged": judged, "stable": stable}
         results.append([{"searched": searched, **best._asdict(), "pareto": [], "closest": None}])
         told.append(told_free(free, best, machine.changes))
+        bests.append(best)
+    if not as_json:
+        click.echo("\n\n".join(told), err=any(to_stdout(name) for name in (csv_file, output) if name))
+    if csv_file:
+        blocks = [
+            (machine.bicycle.name, machine.changes, optima_blocks(best))
+            for machine, best in zip(machines, bests, strict=True)
+        ]
+        save_csv(*of_machines(optima_columns(free), blocks), csv_file)
+    if output:
+        from bikestab.plot.files import save
+        from bikestab.plot.free import draw_free
+
+        save(draw_free(free, bests[0]), Path(output))
+    files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if as_json:
-        print_json(record_of(machines, model, results))
+        print_json(record_of(machines, model, results, files))
     else:
-        click.echo("\n\n".join(told))
+        for name in files.values():
+            tell_file(name)
 
 
 def told_free(free: Free, best: FreeBest, changes: str) -> str:
@@ -64,15 +86,13 @@ def told_free(free: Free, best: FreeBest, changes: str) -> str:
         ranges.append(f"{name} = {low:.6g} ... {high:.6g} {unit}".removesuffix(" 1"))
     stable = f"; stable from {free.stable[0]:g} to {free.stable[1]:g} m/s" if free.stable else ""
     parts = [f"{heading(free.bicycle, free.model)}{changed}\nsearched: {', '.join(ranges)}{stable}"]
-    optima = {"own": best.own, "widest": best.widest, "lowest\nV1": best.lowest_V1}
-    optima |= {"fastest\ndecay": best.fastest_decay}
-    if best.most_robust:
-        optima["most\nrobust"] = best.most_robust["design"]
-    found = {name: design for name, design in optima.items() if design}
+    found = {name.replace(" ", "\n"): design for name, design in best.designs.items()}
     if not (best.widest or best.lowest_V1):
         parts.append("no design was found that is stable as asked; larger ranges of --free may help")
     if found:
         parts.append(table(["", *found], _rows(free, list(found.values()))))
+    if best.own and best.own["at"] != "interior":
+        parts.append(f"own: {best.own['at']}")
     if best.most_robust:
         robust = best.most_robust
         at = ", ".join(f"{name} = {value:.6g}" for name, value in robust["nearest"].items())

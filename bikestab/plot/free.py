@@ -1,0 +1,81 @@
+"""The picture of a search over several parameters: each best design's stable speeds, and where it lies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from bikestab.design.free import Free, FreeBest, FreeDesign
+from bikestab.plot.headings import set_title, short
+from bikestab.plot.lines import entry, legend_below
+from bikestab.plot.settings import own_settings
+from bikestab.plot.sidelabels import lines_for
+from bikestab.variants import parameter_of
+
+_MARKS = {"own": "*", "widest": "^", "lowest V1": "v", "fastest decay": "D", "most robust": "o"}
+_ROOM = 0.25  # of the axis, for the words before a bar
+_BEYOND = 1.1  # where what is unbounded ends in the picture, of the largest end
+
+
+@own_settings()
+def draw_free(free: Free, best: FreeBest) -> Figure:
+    """A bar of stable speeds for each design, and for each free parameter where in its range they lie."""
+    designs = best.designs
+    colours = {name: line.color for name, line in zip(_MARKS, lines_for(len(_MARKS)), strict=True)}
+    rows = max(len(designs), 1), len(free.ends)
+    figure = Figure(figsize=(7.2, 2.2 + 0.42 * sum(rows)), layout="constrained")
+    above, below = figure.subplots(2, 1, height_ratios=rows)
+    _speeds(above, free, designs, colours)
+    set_title(above, short(free.bicycle.name) + ("" if designs else ": no design found"))
+    _places(below, free, designs, colours)
+    marks = [
+        entry(name, color=colours[name], marker=_MARKS[name], ls="", ms=9 if name == "own" else 6)
+        for name in designs
+    ]
+    legend_below(figure, marks)
+    return figure
+
+
+def _speeds(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Mapping[str, str]) -> None:
+    ends = [V for design in designs.values() for V in (design["V1"], design["V2"]) if V is not None]
+    top = _BEYOND * max([*ends, *(free.stable or (1.0,))])
+    for row, (name, design) in enumerate(designs.items()):
+        V1, V2 = design["V1"], design["V2"]
+        if V1 is None:
+            ax.annotate("no stable speed", (0, row), (6, 0), textcoords="offset points", va="center")
+            continue
+        ax.barh(row, (top if V2 is None else V2) - V1, left=V1, height=0.5, color=colours[name], alpha=0.6)
+        words = f"{V1:.2f} … {'no upper limit' if V2 is None else f'{V2:.2f}'}"
+        before = _ROOM * top < V1
+        at, shift = (V1, -4) if before else (V1 + 0.5 * ((top if V2 is None else V2) - V1), 0)
+        side = "right" if before else "center"
+        ax.annotate(
+            words, (at, row), (shift, 0), textcoords="offset points", fontsize=8, va="center", ha=side
+        )
+    for V in free.stable or ():
+        ax.axvline(V, color="0.2", lw=0.8, ls="--")
+    ax.set_yticks(range(len(designs)), list(designs))
+    ax.set_ylim(max(len(designs), 1) - 0.5, -0.5)
+    ax.set_xlim(0, top)
+    ax.set_xlabel("speed V [m/s]" + ("; dashed: stable as asked" if free.stable else ""))
+
+
+def _places(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Mapping[str, str]) -> None:
+    """Each parameter's range as a line, from its least to its greatest value."""
+    labels = []
+    for row, (name, (low, high)) in enumerate(free.ends.items()):
+        unit = parameter_of(free.bicycle, name).unit
+        labels.append(f"{name}: {low:.4g} … {high:.4g} {unit}".removesuffix(" 1"))
+        ax.plot([0, 1], [row, row], color="0.7", lw=1, zorder=1)
+        for which, design in designs.items():
+            share = (design["over"][name] - low) / (high - low) if high > low else 0.5
+            if 0 <= share <= 1:  # the bicycle's own may be outside
+                size = 9 if which == "own" else 6
+                ax.plot(share, row, color=colours[which], marker=_MARKS[which], ms=size, ls="", zorder=2)
+    ax.set_yticks(range(len(labels)), labels, parse_math=False)
+    ax.set_ylim(len(labels) - 0.5, -0.5)
+    ax.set_xlim(-0.03, 1.03)
+    ax.set_xticks([0, 0.5, 1], ["least", "", "greatest"])
+    ax.set_xlabel("where in the range that is searched")

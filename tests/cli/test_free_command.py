@@ -1,0 +1,47 @@
+"""bikestab design --free: what is told, written and drawn of a search over several parameters."""
+
+import csv
+import json
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+FREE = "--bicycle", "meijaard2007", "--free", "lam=0.1:0.5", "--free", "trail=2cm:15cm"
+
+
+@pytest.fixture
+def told(without_warnings):
+    return partial(without_warnings, "design")
+
+
+def test_the_own_design_is_told_as_it_is_though_it_is_not_stable_as_asked(told):
+    code, out, err = told(*FREE, "--stable", "4.2:5")
+    assert (code, err) == (0, "")
+    (width,) = (line.split() for line in out.splitlines() if line.strip().startswith("width"))
+    assert width[2] == "1.73188"
+    assert "own: not stable as asked" in out
+    assert "own:" not in told(*FREE, "--stable", "4.6:5")[1]
+    assert "own: outside of what is searched" in told(*FREE[:2], "--free", "lam=0.35:0.5")[1]
+
+
+def test_files_have_what_the_table_has(told):
+    args = (*FREE, "--stable", "4.6:5.4", "--sd", "lam=0.5deg", "--sd", "trail=5mm")
+    code, out, err = told(*args, "--csv", "a.csv", "-o", "a.png", "--json")
+    assert (code, err) == (0, "")
+    record = json.loads(out)
+    assert record["files"] == {"csv": "a.csv", "picture": "a.png"}
+    (result,) = record["results"]
+    with Path("a.csv").open(encoding="utf-8") as file:
+        rows = {row["design"]: row for row in csv.DictReader(file)}
+    assert [*rows] == ["own", "widest", "lowest V1", "fastest decay", "most robust"]
+    assert float(rows["widest"]["trail"]) == result["widest"]["over"]["trail"]
+    assert float(rows["most robust"]["V2"]) == result["most_robust"]["design"]["V2"]
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_picture_is_of_one_machine(told):
+    code, out, err = told(*FREE, "--bicycle", "sharp1971", "-o", "a.png")
+    assert (code, out) == (2, "")
+    assert "this picture is of one machine" in err
+    assert told("--bicycle", "sharp1971", "--free", "delta=0:20", "-o", "a.png")[0] == 0
