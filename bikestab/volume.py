@@ -201,7 +201,8 @@ def check_ranges(subject: Subject, names: Iterable[Axis], what: str) -> None:
     for name in names:
         if len(subject.axis(name)) == 1:
             problem = f"has one value of {name} alone, and {what} needs a range"
-            raise InputError(problem, place=str(subject.path))
+            hint = f"scan with several, such as grid.{name}: {{start: ..., stop: ..., num: ...}}"
+            raise InputError(problem, place=str(subject.path), hint=hint)
 
 
 def uniform(values: Floats) -> bool:

@@ -14,7 +14,7 @@ from typing import Any
 from bikestab import __version__
 from bikestab.errors import InputError
 from bikestab.files import written
-from bikestab.report.volumes import volume_record
+from bikestab.report.volumes import Progress, volume_records
 from bikestab.volume import Volume
 
 _MODULES = (
@@ -34,24 +34,28 @@ NEEDED = InputError(
 )
 
 
-def save_page(volumes: Sequence[Volume], path: str | Path) -> int:
+def save_page(
+    volumes: Sequence[Volume], path: str | Path, progress: Progress = lambda done, machines: None
+) -> int:
     """Write the page of one or more volumes; its size in bytes.
 
-    Raises InputError without the extra ``report``, as ``volume_record``, and as ``files.written``.
+    ``progress`` is told of machines done, and of all.
+    Raises InputError without the extra ``report``, as ``volume_records``, and as ``files.written``.
     """
-    text = page_text([volume_record(volume) for volume in volumes])
+    library = _plotly()
+    text = page_text(volume_records(volumes, progress), library)
     with written(Path(path)) as part:
         part.write_text(text, encoding="utf-8", newline="\n")
     return len(text.encode())
 
 
-def page_text(records: Sequence[dict[str, Any]]) -> str:
-    """The page of records as ``volume_record`` makes them."""
+def page_text(records: Sequence[dict[str, Any]], library: str) -> str:
+    """The page of records as ``volume_records`` makes them, with the text of plotly's script."""
     about = {"version": __version__, "cite": CITE, "volumes": list(records)}
     parts = {
         "TITLE": _escaped(" · ".join(record["title"] for record in records)),
         "STYLE": _file("page.css"),
-        "LIBRARY": base64.b64encode(zlib.compress(_plotly().encode(), 9)).decode(),  # a third of its size
+        "LIBRARY": base64.b64encode(zlib.compress(library.encode(), 9)).decode(),  # a third of its size
         "MODULES": json.dumps({"imports": {f"bikestab/{name}": _module(name) for name in _MODULES}}),
         "DATA": json.dumps(about, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
     }

@@ -1,60 +1,65 @@
-"""A volume → what the page shows of it: axes, machines, and for each its plane, curves and surface."""
+"""Volumes → what the page shows of them: axes, machines, and for each its plane, curves and surface."""
 
 from __future__ import annotations
 
-import base64
-from collections.abc import Sequence
-from io import BytesIO
+from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any
 
-import numpy as np
-from matplotlib.figure import Figure
-from numpy.typing import ArrayLike
-from PIL import Image
-
+from bikestab.aside import meanwhile
 from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.fields import AXES
-from bikestab.model import Floats
-from bikestab.plot.lines import legend_below
-from bikestab.plot.region import draw_mesh
-from bikestab.plot.settings import own_settings
-from bikestab.region.curves import trace
-from bikestab.region.mesh import Mesh, region_mesh
+from bikestab.geometry import GIVEN
 from bikestab.report.machines import machine_record
-from bikestab.speeds import intervals_of
+from bikestab.report.surfaces import surfaces
 from bikestab.volume import Volume, check_ranges
 
-if TYPE_CHECKING:
-    from mpl_toolkits.mplot3d import Axes3D
-
 Box = dict[str, list[float]]  # ends of λ [rad], σ and V [m/s]
+Progress = Callable[[int, int], None]  # machines done, and all
 MOST_MACHINES = 24  # of a sweep: each brings some 110 kB
-_PLANE = 81  # designs per axis of the coloured plane
-_CELLS = 36  # of the surface, per axis
-_STEPS = 65535  # of a surface's coordinates in the box, and of the plane's colour
-_CURVE = 121  # points of a curve, at most
 
 
-def volume_record(volume: Volume) -> dict[str, Any]:
-    """What page/page.mjs takes.
+def volume_records(volumes: Sequence[Volume], progress: Progress) -> list[dict[str, Any]]:
+    """What page/volumes.mjs takes, one a volume.
 
     Raises InputError for a grid over other parameters than tilt and trail, for one value of an axis, and for
     too many machines.
     """
+    records = [_volume(volume) for volume in volumes]
+    every = [
+        (family, record["box"])
+        for volume, record in zip(volumes, records, strict=True)
+        for family in _families(volume)
+    ]
+    with meanwhile(lambda: [_machine(*one) for one in every[1::2]]) as others:
+        machines: list[Any] = [None] * len(every)
+        progress(0, len(every))
+        for i in range(0, len(every), 2):
+            machines[i] = _machine(*every[i])
+            progress(min(i + 2, len(every)), len(every))
+        machines[1::2] = others()
+    made = iter(machines)
+    for record in records:
+        record["machines"] = [next(made) for _ in range(record.pop("number"))]
+    return records
+
+
+def _volume(volume: Volume) -> dict[str, Any]:
+    """A record that lacks its machines, but for their number."""
     if volume.axes != AXES:
         x, y, _ = volume.axes
-        others = " and ".join(name for name in (x, y) if name not in AXES)
+        others = " and ".join(name for name in (x, y) if name not in GIVEN)
         problem = f"has a grid over {x} and {y}, and a page is of tilt and trail"
-        hint = f"scan over lam and sigma with a sweep of a few values of {others}, which become sliders"
+        hint = "scan over lam and sigma"
+        if others:
+            hint += f", with a sweep of a few values of {others}, which become sliders"
         raise InputError(problem, place=str(volume.path), hint=hint)
     check_ranges(volume, AXES, "a page")
-    machines = list(product(*(values.tolist() for values in volume.swept.values())))
-    if len(machines) > MOST_MACHINES:
-        problem = f"has a sweep of {len(machines)} machines, and a page shows {MOST_MACHINES} at most"
+    number = len(_swept(volume))
+    if number > MOST_MACHINES:
+        problem = f"has a sweep of {number} machines, and a page shows {MOST_MACHINES} at most"
         raise InputError(problem, place=str(volume.path), hint="sweep fewer values")
-    every = [volume.at(dict(zip(volume.swept, values, strict=True))) for values in machines]
     box: Box = {name: [float(volume.axis(name)[0]), float(volume.axis(name)[-1])] for name in AXES}
     return {
         "title": volume.text("title"),
@@ -65,92 +70,26 @@ def volume_record(volume: Volume) -> dict[str, Any]:
             for name, values in volume.swept.items()
         ],
         "warnings": [line for line in volume.text("warnings").split("\n") if line],
+        "samples": volume.samples,
         "version": volume.text("bikestab_version"),
-        "machines": [_machine(one, box) for one in every],
+        "number": number,
     }
+
+
+def _swept(volume: Volume) -> list[tuple[float, ...]]:
+    return list(product(*(values.tolist() for values in volume.swept.values())))
+
+
+def _families(volume: Volume) -> Iterator[Family]:
+    for values in _swept(volume):
+        yield volume.at(dict(zip(volume.swept, values, strict=True))).family
+
+
+def _machine(family: Family, box: Box) -> dict[str, Any]:
+    lam, sigma, V = ((low, high) for low, high in box.values())
+    return machine_record(family.bicycle, family.model) | surfaces(family, lam, sigma, V)
 
 
 def _unit(volume: Volume, name: str) -> str:
     unit = volume.file[name].attrs.get("units", b"")
     return unit.decode() if isinstance(unit, bytes) else str(unit)
-
-
-def _machine(volume: Volume, box: Box) -> dict[str, Any]:
-    family = volume.family
-    lam, sigma, V = ((low, high) for low, high in box.values())
-    mesh = region_mesh(family, lam, sigma, V, cells=_CELLS)
-    return {
-        **machine_record(volume.bicycle, volume.model),
-        "plane": _plane(family, lam, sigma, V),
-        "curves": _curves(family, lam, sigma, V),
-        "mesh": _mesh(mesh, np.array([lam, sigma, V])),
-        **_picture(mesh, [lam, sigma, V]),
-    }
-
-
-def _mesh(mesh: Mesh, box: Floats) -> dict[str, Any]:
-    """The surface, its points in 65536 steps of the box along each axis: to be looked at."""
-    low, high = box.T
-    steps = np.rint((mesh.points - low) / (high - low) * _STEPS)
-    return {
-        "points": _bytes(np.clip(steps, 0, _STEPS), "<u2"),
-        "triangles": _bytes(mesh.triangles, "<u2" if len(mesh.points) <= _STEPS else "<u4"),
-        "kind": _bytes(mesh.kind, "u1"),
-    }
-
-
-@own_settings()
-def _picture(mesh: Mesh, box: Sequence[tuple[float, float]]) -> dict[str, Any]:
-    """The same surface as a picture: at once, in print, and for browsers that draw no three dimensions.
-
-    With the matrix (3, 4) that takes (λ, σ, V, 1) to w times the shares of its width and height, and w.
-    """
-    figure = Figure(figsize=(6.4, 5.6), layout="constrained")
-    ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
-    if handles := draw_mesh(ax, mesh, box):
-        legend_below(figure, handles, handlelength=2)
-    drawn, file = BytesIO(), BytesIO()
-    figure.savefig(drawn, format="png", dpi=100)
-    Image.open(drawn).convert("RGB").quantize(64).save(file, "png", optimize=True)  # a quarter of its size
-    flat = (ax.transData + figure.transFigure.inverted()).get_matrix()
-    return {
-        "picture": base64.b64encode(file.getvalue()).decode(),
-        "view": (flat @ ax.get_proj()[[0, 1, 3]]).tolist(),
-    }
-
-
-def _plane(
-    family: Family, lam: tuple[float, float], sigma: tuple[float, float], V: tuple[float, float]
-) -> Any:
-    """The speeds in the box at which each design is stable, added up [m/s]; rows are of σ."""
-    x, y = np.linspace(*lam, _PLANE), np.linspace(*sigma, _PLANE)
-    found = intervals_of(family.table(x, y[:, np.newaxis]))
-    within = np.clip(found.V2, *V) - np.clip(found.V1, *V)
-    width = np.nansum(within, axis=-1)
-    step = float(np.max(width)) / _STEPS
-    return {
-        "lam": x.tolist(),
-        "sigma": y.tolist(),
-        "step": step,
-        "width": _bytes(np.rint(width / (step or 1.0)), "<u2"),
-    }
-
-
-def _curves(
-    family: Family, lam: tuple[float, float], sigma: tuple[float, float], V: tuple[float, float]
-) -> list[dict[str, Any]]:
-    """The curves at which intervals appear, vanish or change, with at most ``_CURVE`` points each."""
-
-    def some(values: Floats) -> list[float]:
-        chosen = np.unique(np.linspace(0, len(values) - 1, _CURVE).round().astype(int))
-        return np.asarray(values[chosen], float).round(7).tolist()
-
-    return [
-        {"name": curve.name, "lam": some(curve.x), "sigma": some(curve.y)}
-        for curve in trace(family, lam, sigma, V)
-    ]
-
-
-def _bytes(values: ArrayLike, dtype: str) -> str:
-    """Numbers as base64 of little-endian bytes, row by row."""
-    return base64.b64encode(np.ascontiguousarray(values, dtype).tobytes()).decode()

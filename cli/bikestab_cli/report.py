@@ -7,6 +7,7 @@ from contextlib import ExitStack
 import click
 from bikestab_cli.options import FILE, NAME, check_files
 from bikestab_cli.output import tell_file
+from bikestab_cli.progress import progress
 
 
 @click.command("report")
@@ -14,7 +15,8 @@ from bikestab_cli.output import tell_file
 @click.option(
     "-o", "--output", type=FILE, metavar="FILE", default="report.html", show_default=True, help="The page."
 )
-def command(volumes: tuple[str, ...], output: str) -> None:
+@click.option("--quiet", is_flag=True, help="Tell nothing of the progress.")
+def command(volumes: tuple[str, ...], output: str, quiet: bool) -> None:
     """Write one interactive page that needs no network.
 
     The page is one HTML file to be mailed, opened in class or put beside a paper. It shows the stable
@@ -36,5 +38,6 @@ def command(volumes: tuple[str, ...], output: str) -> None:
 
     check_files(output)
     with ExitStack() as opened:
-        size = save_page([opened.enter_context(Volume(volume)) for volume in volumes], output)
+        show = opened.enter_context(progress(output, quiet, "machines"))
+        size = save_page([opened.enter_context(Volume(volume)) for volume in volumes], output, show)
     tell_file(output, f"{size / 1e6:.1f} MB, opens in any browser")

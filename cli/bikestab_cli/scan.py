@@ -83,7 +83,7 @@ def command(
                     _certify(name, config, result.path, jobs, quiet)
                 if certify or not result.computed:
                     pictures += write_proofs(config, result.path)
-                page = _page(result.path) if report else None
+                page = _page(name, result.path, quiet) if report else None
             done.append(_summary(name, config, result, pictures, page))
             if not as_json:
                 click.echo(_line(name, result, pictures, time.perf_counter() - start))
@@ -190,14 +190,14 @@ def _certify(name: str, config: ScanConfig, volume: Path, jobs: int | None, quie
         click.echo(f"note: {name}: {text}", err=True)
 
 
-def _page(volume: Path) -> str:
+def _page(name: str, volume: Path, quiet: bool) -> str:
     """Write the page of a volume beside it; its path."""
     from bikestab.report.page import save_page
     from bikestab.volume import Volume
 
     path = volume.with_name("report.html")
-    with Volume(volume) as opened:
-        save_page([opened], path)
+    with Volume(volume) as opened, progress(f"{name}: page", quiet, "machines") as show:
+        save_page([opened], path, show)
     click.echo(f"{path}: opens in any browser", err=True)
     return str(path)
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 import bikestab as bs
+from bikestab.report.page import save_page
 
 SMALL = ["grid.lam.num=7", "grid.sigma.num=6", "grid.V.num=9", "slices=[]", "fields=[stable]"]
 CONFIG = Path("configs/quick.yaml").absolute()
@@ -24,6 +25,13 @@ def test_a_page_is_written_and_told(bikestab, volume):
     text = Path("report.html").read_text("utf-8")
     assert text.startswith("<!doctype html>")
     assert 'id="lam"' in text
+
+
+def test_machines_done_are_told(volume, tmp_path):
+    told = []
+    with bs.open_volume(volume) as opened:
+        save_page([opened] * 3, tmp_path / "page.html", lambda *done: told.append(done))
+    assert told == [(0, 3), (2, 3), (3, 3)]
 
 
 def test_a_scan_writes_one_beside_its_pictures(bikestab):
@@ -82,4 +90,9 @@ def test_what_cannot_be_a_page_is_refused(bikestab, volume, tmp_path):
     assert code == 2
     assert "has a grid over m1 and delta" in err
     assert "a sweep of a few values of m1 and delta" in err
+    bs.scan(CONFIG, [*SMALL, "grid.V={values: [5]}", f"output={tmp_path / 'one'}"])
+    code, _, err = bikestab("report", tmp_path / "one", "-o", "page.html")
+    assert code == 2
+    assert "has one value of V alone, and a page needs a range" in err
+    assert "such as grid.V: {start: ..., stop: ..., num: ...}" in err
     assert not Path("page.html").exists()

@@ -14,13 +14,14 @@ SMALL = ["grid.lam.num=7", "grid.sigma.num=6", "grid.V.num=9", "slices=[]", "fie
 
 @pytest.fixture(scope="session")
 def volumes(tmp_path_factory):
-    """The folders of three small volumes: the benchmark, the paper's bicycle, a sweep of the damping."""
+    """The folders of small volumes: the benchmark, the paper's bicycle, sweeps of damping and of a gain."""
     folder = tmp_path_factory.mktemp("volumes")
     made = []
     for config, more in (
         ("meijaard2007", []),
         ("dikarev1981", []),
         ("meijaard2007", ["sweep={delta: [0, 2]}"]),
+        ("meijaard2007", ["sweep={k_phidot: [-20, 0]}"]),
     ):
         output = folder / str(len(made))
         bs.scan(f"configs/{config}.yaml", [*SMALL, *more, f"output={output}"])

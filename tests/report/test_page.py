@@ -17,6 +17,7 @@ from bikestab.kinds import KINDS
 
 BENCHMARK = bs.Bicycle.preset("meijaard2007")
 PAPER = bs.Bicycle.preset("dikarev1981")
+ASSISTED = BENCHMARK.replaced({"k_phidot": -20})
 
 
 def apart(one, other):
@@ -56,6 +57,16 @@ def test_eigenvalues_are_those_of_python(opened):
     assert apart(mine, bs.eigenvalues(BENCHMARK, V, lam=lam, sigma=sigma)).max() < 1e-9
 
 
+def test_eigenvalues_with_feedback_are_those_of_python(opened):
+    page = opened("all")
+    page.locator("#tabs button").nth(3).click()
+    assert "k_phidot = -20" in page.inner_text("#subtitle")
+    rng = np.random.default_rng(15)
+    lam, sigma, V = rng.uniform(-0.4, 1.2, 3000), rng.uniform(-0.3, 0.5, 3000), rng.uniform(0, 30, 3000)
+    mine = eigenvalues_in(page, lam, sigma, V)
+    assert apart(mine, bs.eigenvalues(ASSISTED, V, lam=lam, sigma=sigma)).max() < 1e-9
+
+
 def test_eigenvalues_that_meet_are_those_of_python(opened, volumes):
     with bs.open_volume(volumes[0]) as volume:
         bicycle = volume.bicycle  # its two parts are doubles, which a double root tells from the 25 numbers
@@ -72,11 +83,11 @@ def test_eigenvalues_that_meet_are_those_of_python(opened, volumes):
     assert apart(mine, bs.eigenvalues(bicycle, V, lam=lam, sigma=sigma)).max() < 1e-9
 
 
-@pytest.mark.parametrize("which", [0, 1, 2])
+@pytest.mark.parametrize("which", [0, 1, 2, 3])
 def test_intervals_are_those_of_python(opened, which):
     page = opened("all")
     page.locator("#tabs button").nth(which).click()
-    bicycle = [BENCHMARK, PAPER, BENCHMARK.with_delta(2)][which]
+    bicycle = [BENCHMARK, PAPER, BENCHMARK.with_delta(2), ASSISTED][which]
     if which == 2:
         set_slider(page, "sweep-delta", 1)
     rng = np.random.default_rng(which)
@@ -192,7 +203,7 @@ def test_a_click_on_the_plane_chooses_a_design(opened):
 
 def test_the_copied_command_says_the_same_as_the_page(opened):
     page = opened("all")
-    for which in (0, 1, 2):
+    for which in (0, 1, 2, 3):
         page.locator("#tabs button").nth(which).click()
         command = shlex.split(page.inner_text("#command code"))
         done = subprocess.run(
@@ -210,7 +221,7 @@ def test_the_copied_command_says_the_same_as_the_page(opened):
 def test_one_table_compares_all_machines(opened):
     page = opened("all")
     rows = page.locator("#compare tbody tr").all_inner_texts()
-    assert len(rows) == 4
+    assert len(rows) == 6
     assert "delta = 2" in rows[3]
     assert "from 4.292 m/s" in rows[0]
 

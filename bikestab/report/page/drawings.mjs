@@ -22,8 +22,9 @@ const mm = (x) => `${(1000 * x).toFixed(0)} mm`.replace("-", "−");
 export function drawSide(svg, machine, lam, sigma) {
   const { trail, offset } = measures(machine, lam, sigma);
   const { c, R1, R2, parts } = machine;
+  const angle = (90 - (lam * 180) / Math.PI).toFixed(1);
   const high = 1.15 * Math.max(2 * R1, 2 * R2, ...parts.map((part) => part.h));
-  const low = -0.16 * high;
+  const low = -0.26 * high;
   const left = -Math.max(R1, 0.1 * c) - 0.05 * c;
   const right = Math.max(c + R2, c + trail) + 0.05 * c;
   svg.setAttribute("viewBox", `${left} ${-high} ${right - left} ${high - low}`);
@@ -42,14 +43,14 @@ export function drawSide(svg, machine, lam, sigma) {
     shape("path", { d: `M${c} ${-R2} L${on[0]} ${-on[1]} L${head[0]} ${-head[1]}`, fill: "none", stroke: FRONT, "stroke-width": 2.2 * thin }),
     shape("line", { x1: foot, y1: 0, x2: top[0], y2: -top[1], stroke: "currentColor", "stroke-width": thin, "stroke-dasharray": `${8 * thin} ${4 * thin}` }),
     ...parts.map((part, i) => shape("circle", { cx: part.l, cy: -part.h, r: 6 * thin, fill: i ? FRONT : REAR, stroke: "currentColor", "stroke-width": thin })
-      + shape("text", { ...text, x: part.l, y: -part.h - 9 * thin }, `${part.m.toFixed(1)} kg`)),
+      + shape("text", { ...text, "text-anchor": "start", x: part.l + 9 * thin, y: -part.h + (i ? 4 : -4) * thin }, `${part.m.toFixed(1)} kg`)),
     shape("line", { x1: c, x2: foot, y1: 5 * thin, y2: 5 * thin, stroke: "currentColor", "stroke-width": 3 * thin }),
-    shape("text", { ...text, x: Math.min((c + foot) / 2, right - 0.2 * c), y: -low - 0.045 * high }, `trail ${mm(trail)}`),
+    shape("text", { ...text, x: Math.min((c + foot) / 2, right - 0.2 * c), y: -low - 0.145 * high }, `trail ${mm(trail)}`),
     shape("line", { x1: 0, x2: c, y1: 5 * thin, y2: 5 * thin, stroke: "currentColor", "stroke-width": thin }),
-    shape("text", { ...text, x: 0.36 * c, y: -low - 0.045 * high }, `wheelbase ${mm(c)}`),
-    shape("text", { ...text, x: c - 0.1 * c, y: -R2 * 0.45, "text-anchor": "end" }, `offset ${mm(offset)}`),
+    shape("text", { ...text, x: 0.36 * c, y: -low - 0.145 * high }, `wheelbase ${mm(c)}`),
+    shape("text", { ...text, x: 0.5 * (left + right), y: -low - 0.045 * high }, `head angle ${angle}°, fork offset ${mm(offset)}`),
   ].join("");
-  svg.setAttribute("aria-label", `The machine from its side: head angle ${(90 - (lam * 180) / Math.PI).toFixed(1)} degrees, trail ${mm(trail)}, fork offset ${mm(offset)}, wheelbase ${mm(c)}.`);
+  svg.setAttribute("aria-label", `The machine from its side: head angle ${angle} degrees, trail ${mm(trail)}, fork offset ${mm(offset)}, wheelbase ${mm(c)}.`);
 }
 
 /**

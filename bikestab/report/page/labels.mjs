@@ -64,13 +64,14 @@ export function around(machine, { table, chosen }, volumes) {
 
 /** Title, parameters, warnings and how to cite. @param {Volume} volume @param {Entry} machine
  * @param {{ version: string, cite: string }} by */
-export function about({ title, model, version, warnings }, machine, by) {
+export function about({ title, model, version, warnings, samples }, machine, by) {
   const damping = machine.delta ? `damping ${machine.delta} kg m²/s` : "no damping";
   element("title").textContent = title;
   const gains = Object.entries(machine.parameters).filter(([name]) => name.startsWith("k_"));
   const feedback = gains.length ? `, steer torque by feedback: ${gains.map(([name, value]) => `${name} = ${value}`).join(", ")}` : "";
   element("subtitle").textContent = `${machine.name}, ${model} model, ${damping}${feedback}`;
-  tell("warnings", "p", warnings.map((text) => `Warning: ${text}`));
+  const drawn = samples ? [`Of the ${samples} machines drawn at random, which this volume has too, bikestab slice --probability shows more; this page is of the machine as it stands.`] : [];
+  tell("warnings", "p", [...warnings.map((text) => `Warning: ${text}`), ...drawn]);
   const known = Object.entries(machine.parameters).filter(([, value]) => value !== null);
   fill(element("parameters"), known.map(([name, value]) => [name, String(value)]));
   element("cite").textContent = `Computed with bikestab ${by.version} (volume: ${version}). The machine: ${machine.source || "given by its user"}. The model: ${by.cite}; and bikestab ${by.version}. Charts: plotly.js (MIT licence).`;

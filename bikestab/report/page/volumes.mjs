@@ -13,7 +13,7 @@ import { sigmaOfOffset } from "./geometry.mjs";
 /** @typedef {{ lam: number[], sigma: number[], V: number[] }} Box */
 /**
  * @typedef {{ title: string, model: string, version: string, warnings: string[], box: Box, sweep: Axis[],
- *   machines: Entry[] }} Volume
+ *   machines: Entry[], samples: number }} Volume samples: machines of its ensemble, which the page leaves out
  */
 /** @typedef {{ version: string, cite: string, volumes: Volume[] }} Data */
 /**
