@@ -11,7 +11,7 @@ from typing import Any
 from bikestab.algebra import Polynomial
 from bikestab.bicycle import Bicycle
 from bikestab.formulas import coefficient_formulas, table_formulas
-from bikestab.gains import rate_and_power
+from bikestab.gains import GAINS, rate_and_power
 from bikestab.letters import Model
 from bikestab.presets import preset_names
 
@@ -46,23 +46,26 @@ def machine_record(bicycle: Bicycle, model: Model) -> dict[str, Any]:
 
 
 def command_options(bicycle: Bicycle, model: Model) -> str:
-    """The options of the command line that mean this machine: a preset, or every number of it."""
+    """The options of the command line that mean this machine: a preset, or every number but its design."""
     options = []
-    own = bicycle.numbers()
+    own = {name: x for name, x in bicycle.numbers().items() if x is not None and name not in ("lam", "sigma")}
+    changed = {name: x for name, x in own.items() if name == "delta" or name in GAINS}
     if bicycle.name in preset_names() and _alike(Bicycle.preset(bicycle.name), bicycle):
         options.append(f"--bicycle {bicycle.name}")
-        if own["delta"] != Bicycle.preset(bicycle.name).delta:
+        if changed.pop("delta") != Bicycle.preset(bicycle.name).delta:
             options.append(f"--delta {own['delta']!r}")
+        options += [f"--set {name}={value!r}" for name, value in changed.items()]
     else:
-        options += [f"--set {name}={value!r}" for name, value in own.items() if value is not None]
+        options += [f"--set {name}={value!r}" for name, value in own.items()]
     if model != "refined":
         options.append(f"--model {model}")
     return " ".join(options)
 
 
-def _alike(one: Bicycle, other: Bicycle) -> bool:
-    """Whether two bicycles are the same but for the damping."""
-    return {**one.numbers(), "delta": 0} == {**other.numbers(), "delta": 0}
+def _alike(preset: Bicycle, other: Bicycle) -> bool:
+    """Whether two bicycles are the same but for the damping, and for gains that the first has not."""
+    numbers = preset.numbers()
+    return all(other.numbers()[name] == value for name, value in numbers.items() if name != "delta")
 
 
 def _motion(bicycle: Bicycle, model: Model) -> dict[str, list[list[Formula]]]:

@@ -91,3 +91,16 @@ def test_the_command_of_a_preset_names_it_and_its_damping():
         command_options(bicycle.with_delta(1.5), "unrefined")
         == "--bicycle meijaard2007 --delta 1.5 --model unrefined"
     )
+
+
+def test_the_command_of_another_machine_has_every_number_but_its_design():
+    words = command_options(ASSISTED, "refined").replace("--set ", "").split()
+    numbers = {name: float(value) for name, value in (word.split("=") for word in words)}
+    assert {"lam", "sigma"}.isdisjoint(numbers)
+    again = bs.Bicycle.preset("dikarev1981").replaced(numbers)
+    mine = bs.stable_intervals(again, lam=0.2, sigma=0.05)
+    right = bs.stable_intervals(ASSISTED, lam=0.2, sigma=0.05)
+    np.testing.assert_allclose(mine.V1, right.V1, rtol=1e-12)
+    assert command_options(bs.Bicycle.preset("meijaard2007").replaced({"k_phidot": -20.0}), "refined") == (
+        "--bicycle meijaard2007 --set k_phidot=-20.0"
+    )

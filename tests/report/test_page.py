@@ -201,6 +201,27 @@ def test_a_click_on_the_plane_chooses_a_design(opened):
     assert float(page.input_value("#lam")) == pytest.approx(low + 0.75 * (high - low), abs=0.01)
 
 
+def test_a_click_on_the_surface_chooses_what_is_there(opened):
+    page = opened()
+    before = [page.input_value(f"#{name}") for name in ("lam", "sigma", "V")]
+    box = page.locator("#region canvas").first.bounding_box()
+    x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.45 * box["height"]
+    page.evaluate(
+        "() => { const at = document.getElementById('region');"
+        " window.found = new Promise(done => at.on('plotly_hover', done)).then(() => true); }"
+    )
+    page.mouse.move(x - 5, y - 5)
+    page.mouse.move(x, y)
+    page.evaluate("() => window.found")
+    page.mouse.click(x, y)
+    drawn(page)
+    after = [page.input_value(f"#{name}") for name in ("lam", "sigma", "V")]
+    assert after != before
+    lam, sigma, V = map(float, after)
+    own = bs.stable_intervals(BENCHMARK, lam=lam, sigma=sigma)
+    assert min(abs(np.concatenate([own.V1, own.V2]) - V)) < 0.02  # of a surface of 36 cells
+
+
 def test_the_copied_command_says_the_same_as_the_page(opened):
     page = opened("all")
     for which in (0, 1, 2, 3):

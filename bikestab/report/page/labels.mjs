@@ -5,15 +5,19 @@ import { measures } from "./geometry.mjs";
 import { intervalsOf } from "./intervals.mjs";
 import { tableOf } from "./table.mjs";
 import { swept } from "./volumes.mjs";
-import { changes, endsInWords, fixed, inWords, nowInWords } from "./words.mjs";
+import { changes, endsInWords, fixed, inShort, inWords, nowInWords } from "./words.mjs";
 
 /** @typedef {import("./volumes.mjs").Entry} Entry */
 /** @typedef {import("./volumes.mjs").Volume} Volume */
+/** @typedef {import("./intervals.mjs").Interval} Interval */
 /** @typedef {import("./charts.mjs").Chosen} Chosen */
 /** @typedef {{ table: import("./twofold.mjs").Twofold[][], now: [number, number][], chosen: Chosen }} Found */
 
 /** @param {Entry} machine @param {Chosen} chosen */
 export const command = (machine, { lam, sigma }) => `bikestab vrange ${machine.command} --lam ${lam} --sigma=${sigma}`;
+
+/** @param {Interval[]} intervals */
+const told = (intervals) => `${intervals.length ? "stable " : ""}${inWords(intervals)}`;
 
 /** The answer, and what the sliders and charts say. @param {Entry} machine @param {Found} found @param {string} push */
 export function answer(machine, { now, chosen }, push) {
@@ -32,15 +36,15 @@ export function answer(machine, { now, chosen }, push) {
   }
   element("command").firstElementChild?.replaceChildren(command(machine, chosen));
   element("push-words").textContent = `Someone nudges it sideways (${push}) at ${fixed(V, 2)} m/s.`;
-  const told = `${intervals.length ? "stable " : ""}${inWords(intervals)}`;
+  const words = told(intervals);
   const s = now.map(([x, y]) => `${fixed(x, 2)} ${y < 0 ? "−" : "+"} ${fixed(Math.abs(y), 2)} i`).join(", ");
   for (const [id, name, text] of /** @type {const} */ ([
     ["lam", "aria-valuetext", `${fixed(lam, 4)} rad, head angle ${fixed(headAngle, 2)} degrees`],
     ["sigma", "aria-valuetext", `${fixed(sigma, 4)}, trail ${mm} millimetres`],
     ["V", "aria-valuetext", `${fixed(V, 2)} metres per second`],
-    ["plane", "aria-label", `Map of designs, tilt against trail; chosen: tilt ${fixed(lam, 3)} rad, trail ${fixed(sigma, 3)}; ${told}.`],
-    ["region", "aria-label", `Surface around the stable region of tilt, trail and speed; at the chosen design ${told}.`],
-    ["modes", "aria-label", `Growth rates and frequencies of the four modes against speed; ${told}.`],
+    ["plane", "aria-label", `Map of designs, tilt against trail; chosen: tilt ${fixed(lam, 3)} rad, trail ${fixed(sigma, 3)}; ${words}.`],
+    ["region", "aria-label", `Surface around the stable region of tilt, trail and speed; at the chosen design ${words}.`],
+    ["modes", "aria-label", `Growth rates and frequencies of the four modes against speed; ${words}.`],
     ["motion", "aria-label", `Roll and steer angle after the push at ${fixed(V, 2)} m/s.`],
     ["locus", "aria-label", `Root locus; at ${fixed(V, 2)} m/s the eigenvalues are ${s}.`],
   ])) element(id).setAttribute(name, text);
@@ -51,10 +55,11 @@ export function answer(machine, { now, chosen }, push) {
 export function around(machine, { table, chosen }, volumes) {
   const { lam, sigma, intervals } = chosen;
   const small = changes(machine, lam, sigma, intervals);
-  const [, speeds, by] = small[0];
-  const longer = `With a trail 10 mm longer: ${speeds === "no stable speed" ? "" : "stable "}${speeds}${by ? `; ${by}` : ""}.`;
+  const [, then, by] = small[0];
+  const longer = `With a trail 10 mm longer: ${told(then)}${by ? `; ${by}` : ""}.`;
   tell("ends", "li", [...endsInWords(table, intervals), longer]);
-  fill(element("changes"), [["as it is", inWords(intervals), ""], ...small]);
+  const rows = small.map(([what, speeds, difference]) => [what, inShort(speeds), difference]);
+  fill(element("changes"), [["as it is", inShort(intervals), ""], ...rows]);
   if (volumes.length < 2 && volumes[0].machines.length < 2) return;
   element("compare").hidden = false;
   fill(element("compare"), volumes.flatMap((volume) => volume.machines.map((one, i) => [

@@ -199,6 +199,7 @@ async function start() {
   await unpacked();
   charted = true;
   await draw();
+  if (solid) region.picking(element("region"), choose);
 }
 
 /** @type {any} */ (globalThis).bikestab = {

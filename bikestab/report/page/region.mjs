@@ -58,6 +58,22 @@ export function moveRegion(at, shown, chosen) {
   return plotly().restyle(at, { x: [line.x, dot.x], y: [line.y, dot.y], z: [line.z, dot.z] }, [KINDS.length, KINDS.length + 1]);
 }
 
+/** Take what is clicked on the surface, but not where a turn of it begins.
+ * @param {HTMLElement} at @param {import("./controls.mjs").Choose} choose */
+export function picking(at, choose) {
+  const events = /** @type {any} */ (at);
+  let under = /** @type {import("./controls.mjs").Design | null} */ (null);
+  let from = [0, 0];
+  events.on("plotly_hover", (/** @type {{ points: { x: number, y: number, z: number }[] }} */ { points: [{ x, y, z }] }) => {
+    under = { lam: x, sigma: y, V: z };
+  });
+  events.on("plotly_unhover", () => { under = null; });
+  at.addEventListener("pointerdown", ({ clientX, clientY }) => { from = [clientX, clientY]; }, true);
+  at.addEventListener("pointerup", ({ clientX, clientY }) => {
+    if (under && Math.hypot(clientX - from[0], clientY - from[1]) < 4) choose(under);
+  }, true);
+}
+
 /**
  * The chosen design in the picture of the same surface.
  * @param {SVGElement} svg over the picture @param {number[][]} view (λ, σ, V, 1) → shares, times their divisor

@@ -23,6 +23,12 @@ export function inWords(intervals) {
   }).join(" and ");
 }
 
+/** The same for a table, without kinds. @param {Interval[]} intervals */
+export const inShort = (intervals) => intervals.map(({ V1, V2, lower }) => {
+  const from = lower === "rest" ? "rest" : fixed(V1);
+  return V2 === null ? `${from} and faster` : `${from} to ${fixed(V2)}`;
+}).join(", ") || "none";
+
 /** @param {Complex[]} s */
 const leastStable = (s) => s.reduce((a, b) => (a[0] >= b[0] ? a : b));
 
@@ -73,12 +79,12 @@ const neighbours = ({ c }, lam, sigma) => [
   ["head angle 1° slacker", lam + Math.PI / 180, sigma],
 ];
 
-/** What small changes of a design do: change, stable speeds, and how they differ from the design's.
+/** What small changes of a design do: change, stable speeds then, and how they differ from the design's.
  * @param {Machine} machine @param {number} lam @param {number} sigma @param {Interval[]} intervals
- * @returns {[string, string, string][]} */
+ * @returns {[string, Interval[], string][]} */
 export const changes = (machine, lam, sigma, intervals) => neighbours(machine, lam, sigma).map(([what, tilt, trail]) => {
   const then = intervalsOf(tableOf(machine, tilt, trail));
-  return [what, inWords(then), compared(intervals, then)];
+  return [what, then, compared(intervals, then)];
 });
 
 /** @param {Interval[]} before @param {Interval[]} then */
