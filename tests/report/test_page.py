@@ -208,11 +208,11 @@ def test_a_click_on_the_surface_chooses_what_is_there(opened):
     x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.45 * box["height"]
     page.evaluate(
         "() => { const at = document.getElementById('region');"
-        " window.found = new Promise(done => at.on('plotly_hover', done)).then(() => true); }"
+        " at.on('plotly_hover', () => { window.found = true; }); }"
     )
     page.mouse.move(x - 5, y - 5)
     page.mouse.move(x, y)
-    page.evaluate("() => window.found")
+    page.wait_for_function("() => window.found")
     page.mouse.click(x, y)
     drawn(page)
     after = [page.input_value(f"#{name}") for name in ("lam", "sigma", "V")]
