@@ -18,6 +18,11 @@ from bikestab.plot.png import png
 from bikestab.plot.settings import own_settings
 
 DPI = 210
+_UNITS = {
+    "lam": (("deg", math.pi / 180),),
+    "head_angle": (("deg", math.pi / 180),),
+    "V": (("kmh", 1 / 3.6),),
+}
 _UNDATED: dict[str, dict[str, None]] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 
@@ -62,10 +67,18 @@ def write(content: bytes, path: Path) -> None:
 def slice_name(planes: Mapping[str, float], field: str = "growth_rate") -> str:
     """The file name of a slice's picture: its plane, and the machine of a sweep.
 
-    No two have one name that differ by more than rounding, as 0.39749999999999996 and 0.3975 do.
+    No two have one name that differ by more than rounding, as 0.39749999999999996 and 0.3975 do. What is a
+    round number of degrees or kilometres per hour alone is one in the name.
     """
     words = ["slice" if field == "growth_rate" else field]
     for name, value in planes.items():
-        short = f"{value:.6g}"
-        words += [name, short if math.isclose(float(short), value, rel_tol=1e-14) else repr(float(value))]
+        words += [name, _spelt(name, float(value))]
     return "_".join(words) + ".png"
+
+
+def _spelt(name: str, value: float) -> str:
+    for unit, size in (("", 1.0), *_UNITS.get(name, ())):
+        short = f"{value / size:.6g}"
+        if math.isclose(float(short) * size, value, rel_tol=1e-14):
+            return short + unit
+    return repr(value)

@@ -35,6 +35,10 @@ def test_names_of_files():
     assert slice_name({"sigma": 0.0784313725}) == "slice_sigma_0.0784313725.png"
     assert slice_name({"lam": 0.39749999999999996}, "probability") == "probability_lam_0.3975.png"
     assert slice_name({"lam": np.float64(0.2)}) == "slice_lam_0.2.png"
+    assert slice_name({"lam": np.radians(18)}) == "slice_lam_18deg.png"
+    assert slice_name({"lam": np.radians(72.5), "delta": 1.0}, "region") == "region_lam_72.5deg_delta_1.png"
+    assert slice_name({"V": 20 / 3.6}) == "slice_V_20kmh.png"
+    assert slice_name({"lam": 0.1 + 1e-9}) == "slice_lam_0.100000001.png"
 
 
 def test_two_planes_have_two_names():
