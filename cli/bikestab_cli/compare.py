@@ -74,9 +74,9 @@ def command(
 ) -> None:
     """Compare two bicycles, configs or volumes.
 
-    Each of A and B is a bicycle, or a file of one, a scan's config, or a volume or its folder; for three and
-    more bicycles see 'bikestab vrange'. Compared are their parameters, the stable speeds of their own designs,
-    or of the one given, what happens at their ends, and the growth rate in the middle; and over the grid's two
+    Each of A and B is a bicycle, or a file of one, a scan's config, or a volume or its folder; for three or
+    more bicycles see 'bikestab vrange'. Compared are their parameters, the stable speeds of their designs, or
+    of the one given, what happens at their ends, and the growth rate in the middle; and over the grid's two
     parameters, or else tilt and trail, and speeds the volume of the symmetric difference of their stable
     regions, as a share of their union. It is exact along the speed and a sum over designs: those of the grids
     if they are the same, else 81 × 81 in what both have of a box, for bicycles λ to 0.6, σ to 0.3, 30 m/s.
