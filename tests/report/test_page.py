@@ -204,6 +204,7 @@ def test_a_click_on_the_plane_chooses_a_design(opened):
 def test_a_click_on_the_surface_chooses_what_is_there(opened):
     page = opened()
     before = [page.input_value(f"#{name}") for name in ("lam", "sigma", "V")]
+    page.locator("#region").scroll_into_view_if_needed()
     box = page.locator("#region canvas").first.bounding_box()
     x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.45 * box["height"]
     page.evaluate(
