@@ -7,7 +7,7 @@ import pytest
 
 import bikestab as bs
 from bikestab.config.file import load_config
-from bikestab.model import canonical_matrices, characteristic_table
+from bikestab.model import canonical_matrices, characteristic_table, in_powers
 from bikestab.presets import preset_names
 from bikestab.report.machines import command_options, machine_record
 
@@ -32,6 +32,7 @@ MACHINES = [
     *(bs.Bicycle.preset(name) for name in preset_names()),
     ASSISTED,
     ASSISTED.replaced(GAINS),
+    ASSISTED.replaced({"k_phidot_per_V": -20.0, "k_delta_per_V": 3.0, "k_phi_V": 0.3}),
     bs.Bicycle.preset("dikarev1981").replaced(GAINS),
 ]
 
@@ -41,7 +42,7 @@ MACHINES = [
 def test_formulas_give_the_table(bicycle, model):
     record = machine_record(bicycle, model)
     for lam, sigma in DESIGNS:
-        table = characteristic_table(bicycle, lam, sigma, model=model)
+        table = in_powers(characteristic_table(bicycle, lam, sigma, model=model))
         mine = np.array([[value(entry, lam, sigma) for entry in row] for row in record["table"]])
         assert mine == pytest.approx(table, rel=1e-12, abs=1e-12 * np.abs(table).max())
 
