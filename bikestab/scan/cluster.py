@@ -19,7 +19,7 @@ import numpy as np
 
 from bikestab import __version__
 from bikestab.errors import InputError, ScanError, WorkersLost
-from bikestab.scan.processes import Numbered, undisturbed, without_script
+from bikestab.scan.processes import Numbered, check_number, undisturbed, without_script
 from bikestab.scan.tile import Finished, compute
 
 ANSWER, PATIENCE = 8.0, 30.0  # s to wait for a scheduler, and for a worker where there is none
@@ -33,6 +33,18 @@ def versions() -> dict[str, str]:
         "bikestab": __version__, "numpy": np.__version__, "isal": version("isal"),
         "processor": " ".join(vector) or "plain",
     }  # fmt: skip
+
+
+def local_processes(scheduler: str) -> int:
+    """N of ``local:N``, 0 of another address. Raises InputError where it is no number, or too large."""
+    kind, _, number = scheduler.partition(":")
+    if kind != "local":
+        return 0
+    if not re.fullmatch("0*[1-9][0-9]{0,9}", number):
+        problem = f"{scheduler!r} is no number of processes"
+        raise InputError(problem, hint="for example --scheduler local:4")
+    check_number(int(number))
+    return int(number)
 
 
 def on_cluster(tiles: Iterable[Numbered], scheduler: str) -> Generator[tuple[int, Finished]]:
@@ -106,15 +118,11 @@ def _quiet() -> Iterator[None]:
 def _client(scheduler: str) -> Iterator[Any]:
     from distributed import Client, LocalCluster
 
-    kind, _, number = scheduler.partition(":")
-    if kind == "local":
-        if not number.isdecimal() or int(number) < 1:
-            problem = f"{scheduler!r} is no number of processes"
-            raise InputError(problem, hint="for example --scheduler local:4")
+    if processes := local_processes(scheduler):
         with without_script():  # to the end: a worker that is lost is started again
             with undisturbed():
                 cluster = LocalCluster(
-                    n_workers=int(number), threads_per_worker=1, memory_limit=0,
+                    n_workers=processes, threads_per_worker=1, memory_limit=0,
                     dashboard_address="127.0.0.1:0", silence_logs="CRITICAL",
                 )  # fmt: skip
             with cluster, Client(cluster, set_as_default=False) as client:

@@ -22,10 +22,19 @@ from types import ModuleType
 from typing import Any, cast
 
 from bikestab.aside import cores as cores
-from bikestab.errors import WorkersLost
+from bikestab.errors import InputError, WorkersLost
 from bikestab.scan.tile import Finished, Tile, compute
 
 Numbered = tuple[int, Tile]
+
+
+def check_number(processes: int) -> None:
+    """InputError for so many processes that starting them takes the machine's memory, or for ever."""
+    most = max(64, 4 * cores())
+    if processes > most:
+        raise InputError(
+            f"{processes} processes are too many for this machine", hint=f"allowed: up to {most}"
+        )
 
 
 def in_turn(tiles: Iterable[Numbered]) -> Generator[tuple[int, Finished]]:

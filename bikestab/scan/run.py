@@ -13,7 +13,7 @@ from bikestab.config.scanconfig import ScanConfig
 from bikestab.errors import KEPT, NOT_KEPT, InputError, ScanError, WorkersLost
 from bikestab.scan.agreement import Agreement
 from bikestab.scan.assemble import assemble
-from bikestab.scan.cluster import on_cluster, versions
+from bikestab.scan.cluster import local_processes, on_cluster, versions
 from bikestab.scan.output import (
     check_size,
     make_folder,
@@ -23,7 +23,7 @@ from bikestab.scan.output import (
     volume_path,
 )
 from bikestab.scan.plan import Plan
-from bikestab.scan.processes import cores, in_processes, in_turn
+from bikestab.scan.processes import check_number, cores, in_processes, in_turn
 from bikestab.scan.spool import Spool
 from bikestab.scan.tile import Finished
 
@@ -63,13 +63,14 @@ def run_scan(
     until the volume is written, so that a scan that was stopped goes on where it was. A complete volume of
     a config that means the same is kept; its title and config text become this one's.
 
-    Raises InputError where the compiled kernel is asked for and not there, for an output that belongs to
-    another config (unless ``force``), is being written by another scan, cannot be written, or would be too
-    large, and ScanError where the disk is full, a worker is lost, or the exact speeds and the conditions do
-    not agree.
+    Raises InputError for too many processes, where the compiled kernel is asked for and not there, for an
+    output that belongs to another config (unless ``force``), is being written by another scan, cannot be
+    written, or would be too large, and ScanError where the disk is full, a worker is lost, or the exact
+    speeds and the conditions do not agree.
     """
     plan, tiles = Plan(config), tiles_path(config)
     check_size(config)
+    check_number(jobs or local_processes(scheduler))
     if config.compiled:
         check_available()
     make_folder(config)

@@ -162,6 +162,9 @@ def test_two_configs_with_one_output(scan):
         ("a.yaml --set grid.V.stop=1e308", "grid.V"),
         ("a.yaml --frce", "--force"),
         ("a.yaml --jobs 0", "--jobs"),
+        ("a.yaml --jobs 999999999", "999999999 processes are too many for this machine\n  allowed: up to"),
+        ("a.yaml --scheduler local:999999999", "999999999 processes are too many for this machine"),
+        (f"a.yaml --scheduler local:{5000 * '9'}", "is no number of processes"),
         ("a.yaml --jobs 2 --scheduler local:2", "give one of them"),
     ],
 )
