@@ -48,6 +48,9 @@ def read_rider(path: str | Path) -> Found:
             if key not in names:
                 hint = f"known: {', '.join(_OF_RIDER)}"
                 raise found.located(InputError("is no parameter of a rider", key=(key,), hint=hint))
+        if not names:
+            hint = f"a rider's file has {', '.join(_OF_RIDER)}"
+            raise InputError("holds no parameter of a rider", place=str(path), hint=hint)
     keys = {ours: theirs for theirs, ours in names.items()}
 
     def located(error: InputError) -> InputError:

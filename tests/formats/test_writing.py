@@ -50,6 +50,7 @@ def test_a_rider_and_odd_texts(tmp_path, ending):
 @pytest.mark.parametrize(
     ("name", "text", "message"),
     [
+        ("meijaard2007", "", "r.txt: holds no parameter of a rider"),
         ("meijaard2007", RIDER + "v = 1\ndelta = 1\n", "r.txt, line 10: delta: is no parameter of a rider"),
         ("meijaard2007", RIDER.replace("xB = 0.29\n", ""), "missing parameter: rider.x"),
         ("meijaard2007", RIDER.replace("72.0", "-72"), "r.txt, line 1: mB: -72 is not non-negative"),
