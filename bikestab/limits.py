@@ -11,6 +11,7 @@ from bikestab.errors import InputError
 MOST_TRAIL = 100.0  # of σ
 MOST_SPEED = 1e6  # m/s; more would overflow in hurwitz3
 MOST = 1e9  # of every parameter, in its SI unit; more would overflow in products of conditions
+LEAST = 1e-50  # of every parameter and speed that is not zero; less would underflow there
 
 
 def check_tilt(lam: float, key: tuple[str | int, ...]) -> None:
@@ -38,6 +39,8 @@ def check_speed(V: float, key: tuple[str | int, ...]) -> None:
     if not 0 <= V <= MOST_SPEED:
         problem = f"{V:g} is a speed backwards" if V < 0 else f"{V:g} m/s is out of range"
         raise InputError(problem, key=key, hint=f"allowed: 0 ... {MOST_SPEED:g} m/s")
+    if 0 < V < LEAST:
+        raise InputError(f"{V:g} m/s is out of range", key=key, hint=f"allowed: 0, or from {LEAST:g} m/s on")
 
 
 def exceeds(a: Any, b: Any) -> Any:
@@ -107,8 +110,8 @@ def least_with(C: float, m: float, R: float, away: float) -> float:
 
 
 def allowed(value: Any, check: str) -> Any:
-    """Whether a parameter is of the sign wanted and within MOST; of floats or arrays."""
-    within = abs(value) <= MOST
+    """Whether a parameter has the sign wanted and is 0 or LEAST to MOST in size; of floats or arrays."""
+    within = (abs(value) <= MOST) & ((value == 0) | (abs(value) >= LEAST))
     return within & (value > 0) if check == "positive" else within & ((value >= 0) | (check == ""))
 
 
@@ -123,9 +126,11 @@ def require(given: Mapping[str, float], required: Sequence[str], meanings: Mappi
 
 
 def check_value(key: str, value: float, check: str, meaning: str) -> None:
-    """Raise InputError unless a parameter is of the sign wanted and within MOST."""
+    """Raise InputError unless a parameter is ``allowed``."""
     if abs(value) > MOST:
         raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: up to {MOST:g}")
+    if 0 < abs(value) < LEAST:
+        raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: 0, or from {LEAST:g} on")
     if not allowed(value, check):
         limit = "> 0" if check == "positive" else ">= 0"
         raise InputError(f"{value:g} is not {check} ({meaning})", key=(key,), hint=f"allowed: {key} {limit}")

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle, parameters
 from bikestab.errors import InputError
-from bikestab.limits import check_tilt
+from bikestab.limits import LEAST, check_speed, check_tilt
 from bikestab.model import characteristic_table
 from bikestab.presets import preset_names, preset_text
 from tests.strategies import machines, meijaard_machines
@@ -422,3 +422,18 @@ def test_every_parameter_says_its_unit_and_meaning():
         assert p.metadata["unit"]
         assert p.metadata["meaning"]
     assert [p.name for p in parameters()] == list(make().numbers())
+
+
+@pytest.mark.parametrize("name", ["delta", "R1", "g", "h2", "k_phi"])
+def test_numbers_whose_products_would_underflow(name):
+    given = dict(Bicycle.preset("dikarev1981").given)
+    Bicycle.from_mapping({**given, name: LEAST})
+    with pytest.raises(InputError, match=rf"{name}: 1e-160 is out of range\nallowed: 0, or from 1e-50 on"):
+        Bicycle.from_mapping({**given, name: 1e-160})
+
+
+def test_speeds_whose_products_would_underflow():
+    check_speed(0.0, ("V",))
+    check_speed(LEAST, ("V",))
+    with pytest.raises(InputError, match=r"V: 1e-160 m/s is out of range"):
+        check_speed(1e-160, ("V",))

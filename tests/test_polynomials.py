@@ -62,6 +62,12 @@ def test_products_sums_and_what_is_left_of_them(p, q):
             assert not np.any(found[len(one) :, i])
 
 
+def test_products_with_nothing():
+    none, some = np.zeros((1, 5)), random(2, 5)
+    for found in (polynomials.product(some, none), polynomials.product(none, some)):
+        np.testing.assert_array_equal(found, np.zeros((3, 5)))
+
+
 def test_powers_that_no_cell_has():
     c = np.zeros((6, 2))
     assert polynomials.used_powers(c) == []

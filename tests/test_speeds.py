@@ -19,7 +19,10 @@ from bikestab.speeds import (
     REST,
     UNBOUNDED,
     WEAVE,
+    _Ends,
+    _in_order,
     _others_positive,
+    _out_of_order,
     critical_speeds,
     intervals_of,
 )
@@ -249,3 +252,23 @@ def test_no_cells():
     found = intervals_of(np.zeros((5, 4, 0)))
     assert found.V1.shape == (0, 1)
     assert found.number.shape == (0,)
+
+
+def test_ends_of_one_speed_go_by_their_second_doubles():
+    V, radius = np.ones(3), np.array([1e-30, 1.0, 1e-30])
+    one = (V, np.array([1e-20, 1e-20, 3e-20]), radius, np.full(3, WEAVE, np.uint8))
+    other = (V, np.array([2e-20, 1e-20, 2e-20]), radius[::-1], np.full(3, CAPSIZE, np.uint8))
+    first, second = _in_order(one, other)
+    np.testing.assert_array_equal(first[1], [1e-20, 1e-20, 2e-20])
+    np.testing.assert_array_equal(second[1], [2e-20, 1e-20, 3e-20])
+    assert first[3].tolist() == [WEAVE, WEAVE, CAPSIZE]  # those that are equal stay
+    assert second[3].tolist() == [CAPSIZE, CAPSIZE, WEAVE]
+
+
+@pytest.mark.parametrize(("kinds", "close"), [((WEAVE, CAPSIZE), True), ((WEAVE, WEAVE), False)])
+def test_bounds_that_touch(kinds, close):
+    V, nothing = np.array([[0.0], [1.0], [2.0], [np.inf]]), np.zeros((4, 1))
+    radius = np.array([[0.0], [0.5], [0.5], [0.0]])
+    kind = np.array([[REST], [kinds[0]], [kinds[1]], [UNBOUNDED]], np.uint8)
+    assert _out_of_order(_Ends(V, nothing, radius, kind)).tolist() == [close]
+    assert not _out_of_order(_Ends(V, nothing, 0.99 * radius, kind)).any()

@@ -44,6 +44,7 @@ def judged(case: Case) -> tuple[int, str]:
         code, out, err = run(case.args)
         assert code in (0, 1, 2, 3), (code, err)
         assert "a mistake of bikestab itself" not in err, err
+        assert "please report" not in err, err
         assert "Traceback" not in out + err, err
         _check_messages(
             code, err, len(case.args) if case.args[:1] == ("check",) else 1
