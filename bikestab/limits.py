@@ -11,7 +11,8 @@ from bikestab.errors import InputError
 MOST_TRAIL = 100.0  # of σ
 MOST_SPEED = 1e6  # m/s; more would overflow in hurwitz3
 MOST = 1e9  # of every parameter, in its SI unit; more would overflow in products of conditions
-LEAST = 1e-50  # of every parameter and speed that is not zero; less would underflow there
+LEAST = 1e-50  # of SMALL and of speeds that are not zero; less would underflow there
+SMALL = {"delta", "g", "R", "R1", "R2", "rR", "rF"}
 
 
 def check_tilt(lam: float, key: tuple[str | int, ...]) -> None:
@@ -110,8 +111,8 @@ def least_with(C: float, m: float, R: float, away: float) -> float:
 
 
 def allowed(value: Any, check: str) -> Any:
-    """Whether a parameter has the sign wanted and is 0 or LEAST to MOST in size; of floats or arrays."""
-    within = (abs(value) <= MOST) & ((value == 0) | (abs(value) >= LEAST))
+    """Whether a parameter is of the sign wanted and within MOST; of floats or arrays."""
+    within = abs(value) <= MOST
     return within & (value > 0) if check == "positive" else within & ((value >= 0) | (check == ""))
 
 
@@ -126,10 +127,10 @@ def require(given: Mapping[str, float], required: Sequence[str], meanings: Mappi
 
 
 def check_value(key: str, value: float, check: str, meaning: str) -> None:
-    """Raise InputError unless a parameter is ``allowed``."""
+    """Raise InputError unless a parameter is of the sign wanted, within MOST, and not too small."""
     if abs(value) > MOST:
         raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: up to {MOST:g}")
-    if 0 < abs(value) < LEAST:
+    if key in SMALL and 0 < abs(value) < LEAST:
         raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: 0, or from {LEAST:g} on")
     if not allowed(value, check):
         limit = "> 0" if check == "positive" else ">= 0"
