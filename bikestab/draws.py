@@ -70,3 +70,16 @@ def correlation_matrix(names: list[str], correlations: Mapping[tuple[str, str], 
         if a in names and b in names and a != b:
             matrix[names.index(a), names.index(b)] = matrix[names.index(b), names.index(a)] = r
     return matrix
+
+
+def evenly(dimensions: int, number: int) -> Floats:
+    """Points (number, dimensions) spread evenly over the unit box: multiples of square roots of primes.
+
+    Quadratic irrationals are far from all fractions, so that no slice along an axis is left out (Richtmyer).
+    """
+    primes: list[int] = []
+    candidate = 2
+    while len(primes) < dimensions:
+        primes += [candidate] * all(candidate % prime for prime in primes)
+        candidate += 1
+    return np.arange(1, number + 1)[:, np.newaxis] * np.sqrt(np.array(primes, dtype=float)) % 1.0

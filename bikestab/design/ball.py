@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
-from scipy.stats import qmc
 
 from bikestab.bicycle import Bicycle
 from bikestab.design.around import around, values_around
+from bikestab.draws import evenly
 from bikestab.errors import InputError
 from bikestab.limits import MOST_TRAIL
 from bikestab.machines import Machines, standard_normal
@@ -29,15 +29,11 @@ from bikestab.speeds import intervals_of
 from bikestab.variants import check_names, own_value
 
 FARTHEST = 100.0  # standard deviations; a larger ball is cut
-_SEED = 2007
 _RAYS, _MANY = 32, 1024  # directions that are tried while the centre moves, and at its end
 _CONTACTS, _APART = 12, 0.95  # nearest ends that are refined together, and the cosine of what is apart
 _TURNS = 8  # steps of theirs
-_MARCH, _PARTS, _CUTS = (
-    24,
-    12,
-    7,
-)  # steps of a ray to FARTHEST; into how many parts the last is cut, how often
+_MARCH, _PARTS = 24, 12  # steps of a ray to FARTHEST; into how many parts the last is cut
+_SECANTS, _NARROW = 12, 1e-8  # steps into that part, at most, and how narrow it becomes
 _SPEEDS = 7  # at which the conditions are looked at
 _STEEPEST = 1.57  # rad
 _STARTS, _TRIED = 2, 128
@@ -129,21 +125,38 @@ class Ball:
         """How far (S,) rays in directions u (m, S) from designs x (n, S) stay stable; the first end only."""
         steps = np.concatenate([[0.0], np.geomspace(0.02, FARTHEST, _MARCH)])
         low, high = np.zeros(u.shape[1]), np.full(u.shape[1], FARTHEST)
-        for share in (steps / FARTHEST, *[np.linspace(0, 1, _PARTS + 1)] * _CUTS):
-            far = low + (high - low) * share[1:-1, np.newaxis]  # (part, S)
+        ray = np.arange(u.shape[1])
+        for share in (steps / FARTHEST, np.linspace(0, 1, _PARTS + 1)):
+            far = low + (high - low) * share[:, np.newaxis]  # (part, S)
             points = np.tile(x, len(far)), (far * u[:, np.newaxis]).reshape(len(u), -1)
-            lost = self.margin(*points).reshape(far.shape) <= 0
-            first = np.where(lost.any(axis=0), lost.argmax(axis=0), len(far))
-            edges = np.vstack([low, far, high])
-            ray = np.arange(len(low))
-            low, high = edges[first, ray], edges[first + 1, ray]
+            margin = self.margin(*points).reshape(far.shape)
+            lost = margin[1:-1] <= 0
+            first = np.where(lost.any(axis=0), lost.argmax(axis=0), len(lost))
+            low, high = far[first, ray], far[first + 1, ray]
+        return self._narrowed(x, u, (low, high), (margin[first, ray], margin[first + 1, ray]))
+
+    def _narrowed(
+        self, x: Floats, u: Floats, ends: tuple[Floats, Floats], values: tuple[Floats, Floats]
+    ) -> Floats:
+        """The last known stable distance (S,) of those in between, by the Illinois method."""
+        (low, high), (inside, outside) = ends, values
+        for _ in range(_SECANTS):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                share = np.clip(inside / (inside - outside), 0.01, 0.99)
+            at = low + (high - low) * np.where(np.isnan(share), 0.5, share)
+            value = self.margin(x, at * u)
+            kept = value > 0  # the other end's value is halved where it stays
+            low, high = np.where(kept, at, low), np.where(kept, high, at)
+            inside, outside = np.where(kept, value, 0.5 * inside), np.where(kept, 0.5 * outside, value)
+            if np.all(high - low <= _NARROW * high):
+                break
         return low
 
 
 def directions(dimensions: int, number: int) -> Floats:
     """Unit vectors (m, number), evenly spread, and those along the axes first."""
     axes = np.hstack([np.eye(dimensions), -np.eye(dimensions)])
-    points = qmc.Sobol(dimensions, rng=_SEED).random(1 << (number - 1).bit_length())[:number]
+    points = evenly(dimensions, number)
     normal = standard_normal(np.clip(points.ravel(), 1e-12, 1 - 1e-12)).reshape(points.shape).T
     return np.hstack([axes, normal / np.linalg.norm(normal, axis=0)])
 

@@ -9,12 +9,13 @@ from typing import NamedTuple, TypedDict
 
 import numpy as np
 from scipy.optimize import differential_evolution
-from scipy.stats import qmc
 
+from bikestab.aside import meanwhile
 from bikestab.bicycle import Bicycle
 from bikestab.design.ball import Ball, Robust, most_robust
 from bikestab.design.criteria import WORSE, Criterion, assessed, counted, decay, judged, lowest, width
 from bikestab.design.optimum import finite
+from bikestab.draws import evenly
 from bikestab.errors import InputError
 from bikestab.limits import check_speed
 from bikestab.model import Floats, Model, characteristic_table
@@ -82,7 +83,7 @@ class Free:
     def first(self) -> Floats:
         """Designs (n, S) spread evenly over the box, the bicycle's own among them where it is inside."""
         low, high = self.box
-        unit = qmc.Sobol(len(self.ends), rng=_SEED).random(_START)
+        unit = evenly(len(self.ends), _START)
         points = low + (high - low) * unit
         if (own := self.own) is not None and np.all((low <= own) & (own <= high)):
             points[0] = own
@@ -147,15 +148,22 @@ def best_free(free: Free, deviations: Mapping[str, float] | None = None) -> Free
 
     InputError, with the key ``sd``, for deviations without speeds, and for what the bicycle does not have.
     """
+
+    def searched() -> list[tuple[Floats, float]]:
+        return [best_of(free, criterion) for criterion in (width, lowest, decay)]
+
     robust = None
     if deviations:
         if free.stable is None:
             hint = "for example stable from 4.5 to 5.5 m/s"
             raise InputError("robust designs need speeds to be stable at", key=("stable",), hint=hint)
         ball = Ball(free.bicycle, free.model, free.stable, free.ends, deviations)
-        if found := most_robust(ball, free.first):
-            robust = _robust_design(free, found)
-    optima = [best_of(free, criterion) for criterion in (width, lowest, decay)]
+        with meanwhile(searched) as others:
+            if found := most_robust(ball, free.first):
+                robust = _robust_design(free, found)
+            optima = others()
+    else:
+        optima = searched()
     widest, low, fast = (None if value >= WORSE else free_design(free, x) for x, value in optima)
     own = None if free.own is None else free_design(free, free.own)
     return FreeBest(own, widest, low, fast, robust)

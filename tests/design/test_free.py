@@ -8,6 +8,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.design.ball import Ball, contacts, directions
 from bikestab.design.criteria import assessed, decay, lowest, width
 from bikestab.design.free import Free, best_free, best_of
+from bikestab.draws import evenly
 from bikestab.errors import InputError
 from bikestab.routh import stable
 from bikestab.stability import stable_intervals
@@ -135,3 +136,13 @@ def test_robustness_needs_speeds():
         best_free(Free(MEIJAARD, {"mB": (60.0, 90.0)}), {"mB": 5.0})
     with pytest.raises(InputError, match="no parameter 'mb'"):
         best_free(Free(MEIJAARD, {"mB": (60.0, 90.0)}, stable=(5.0, 5.0)), {"mb": 5.0})
+
+
+@pytest.mark.parametrize("dimensions", [1, 2, 6])
+def test_points_are_spread_evenly(dimensions):
+    """Each of 32 slices along each axis has its share of the points, as no random ones have."""
+    points = evenly(dimensions, 1024)
+    assert points.shape == (1024, dimensions)
+    for x in points.T:
+        assert np.abs(np.histogram(x, 32, (0, 1))[0] - 32).max() <= 3
+    assert len(np.unique(points, axis=0)) == 1024
