@@ -87,7 +87,7 @@ COMMANDS: dict[str, tuple[list[list[str]], dict[str, list[str] | None]]] = {
     }),
     "sensitivity": ([], {
         "--lam": LAM, "--sigma": SIGMA, "--hold": ["trail", "offset", "sigma"], "--csv": ["out.csv"],
-        "-o": PICTURE, **FRAME, **SD, **SEVERAL,
+        "--of": ["speeds", "growth", "sigma_min"], "-o": PICTURE, **FRAME, **SD, **SEVERAL,
     }),
     "certify": ([["a.yaml"]], {
         "--lam": ["0.1:0.3", "0.2:0.2", "10deg:12deg"], "--sigma": ["0.05:0.1", "0.08:0.09"],
@@ -111,7 +111,9 @@ COMMANDS: dict[str, tuple[list[list[str]], dict[str, list[str] | None]]] = {
         "--intervals": ["out.csv", "out.parquet"], "--at": ["delta=1"], "--quantiles": ["out.csv"],
         "--skeleton": ["out.csv", "out.parquet"], "--cells": ["4", "0"], "--scale": ["1,1,1", "1,0,1"],
     }),
-    "report": ([["a.yaml", "b.yaml", "none.h5"]], {"-o": ["out.html", "out.xyz"]}),  # never one that is drawn
+    "report": ([["a.yaml", "b.yaml", "none.h5"]], {  # never one that is drawn
+        "-o": ["out.html", "out.xyz"], "--quiet": None,
+    }),
     "completion": ([["bash", "zsh", "fish"]], {}),
     "init": ([["out.yaml"]], {"--bicycle": BICYCLE, "--uncertain": None, "--force": None}),
     "schema": ([["config", "vrange", "eigen", "design", "compare", "check"]], {}),
