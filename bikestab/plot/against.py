@@ -18,7 +18,10 @@ from bikestab.plot.settings import own_settings
 
 @own_settings()
 def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
-    """A machine by name, at a speed [m/s]; ``unit`` is that of the parameter."""
+    """A machine by name, at a speed [m/s]; ``unit`` is that of the parameter. Head angles are in degrees."""
+    if found.name == "head_angle":
+        stable = [(float(np.degrees(start)), float(np.degrees(stop))) for start, stop in found.stable]
+        found, unit = found._replace(values=np.degrees(found.values), stable=stable), "°"
     figure = Figure(figsize=(5.6, 4.4), layout="constrained")
     ax = figure.add_subplot()
     x = found.values

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 import bikestab as bs
 from bikestab.against import modes_against
 from bikestab.motion import motion, shapes
+from bikestab.plot.against import draw_against
 from bikestab.plot.locus import draw_locus
 from bikestab.plot.shapes import draw_shapes
 
@@ -161,3 +163,10 @@ def test_the_heading_is_silent_of_a_damping_that_varies(bikestab):
         assert done[0] == 0
         assert "damping" not in done[1].splitlines()[0]
     assert "damping 0 kg" in bikestab("vrange", "--bicycle", "meijaard2007", "--over", "mB=60:90:2")[1]
+
+
+def test_a_head_angle_is_drawn_in_degrees():
+    found = modes_against(BIKE, "head_angle", [math.radians(68), math.radians(74)], 5.0)
+    (ax,) = draw_against("own", found, 5.0, "rad").axes
+    assert ax.get_xlabel() == "head_angle [°]"
+    assert ax.get_xlim() == pytest.approx((68, 74))
