@@ -91,7 +91,7 @@ def test_an_unknown_word_is_told_with_the_nearest(bikestab, args, expected):
 
 @pytest.mark.parametrize(
     ("option", "value", "name"),
-    [("--lam", "0.2", "slice_lam_0.2.png"), ("--lam", "9deg", "slice_lam_0.15707963267948966.png"),
+    [("--lam", "0.2", "slice_lam_0.2.png"), ("--lam", "9deg", "slice_lam_9deg.png"),
      ("--sigma", "0.08", "slice_sigma_0.08.png"), ("--V", "18km/h", "slice_V_5.png")],
 )  # fmt: skip
 def test_slice_writes_beside_the_volume(bikestab, volume, tmp_path, option, value, name):
