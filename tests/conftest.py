@@ -3,10 +3,14 @@
 from importlib import import_module
 
 import pytest
+from hypothesis import settings
 
 from bikestab.scan.run import run_scan
 from bikestab.scan.tile import compute
 from tests import volumes
+
+settings.register_profile("bikestab", deadline=None)  # no test is about time on a busy machine
+settings.load_profile("bikestab")
 
 
 @pytest.fixture

@@ -90,6 +90,8 @@ def test_examples_of_a_help_text(run, name):
     assert name == "bikestab" or all(line.startswith(f"bikestab {name}") for line in lines)
     if any("out/quick" in line for line in lines):
         run(["bikestab scan configs/quick.yaml --set slices=[]"])
+    if any("out/proved" in line for line in lines):
+        run(["bikestab scan configs/quick.yaml --set slices=[] --set output=out/proved --certify"])
     run(lines)
 
 
