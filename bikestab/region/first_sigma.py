@@ -17,7 +17,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.dual import Dual
 from bikestab.errors import InputError
 from bikestab.family import Family
-from bikestab.model import Floats, Model
+from bikestab.model import ExactTable, Floats, Model
 from bikestab.region.lines import stable_ranges
 from bikestab.region.nearest import SIGMA_RANGE
 from bikestab.region.pieces import NAMES
@@ -127,7 +127,7 @@ def _none(reason: str) -> FirstSigma:
 def _solved(family: Family, lam: float, start: float) -> FirstSigma:
     """The event at which the stable σ begin, near ``start``."""
     machine, model = family.bicycle, family.model
-    for kind, V in _events(family.table(lam, start)):
+    for kind, V in _events(family.exact_table(lam, start)):
         equations = _equations(kind, family.table(lam, start + _AROUND * np.array([-1.0, -0.5, 0.5, 1.0])))
         found = _newton(
             lambda sigma, V, of=equations: of(slopes_of(machine, lam, sigma, model=model, by=()), V),
@@ -144,8 +144,11 @@ def _solved(family: Family, lam: float, start: float) -> FirstSigma:
     return FirstSigma(start, None, None, {}, "no two conditions were found that vanish there")
 
 
-def _events(table: Floats) -> list[tuple[CurveName, float]]:
-    """The curves on which a design's stable intervals may end, and at which speed; the likeliest first."""
+def _events(table: ExactTable) -> list[tuple[CurveName, float]]:
+    """The curves on which a design's stable intervals may end, and at which speed; the likeliest first.
+
+    A rounded table may have no interval any more where the first one opens.
+    """
     found = intervals_of(table)
     events: list[tuple[CurveName, float]] = []
     for k in np.argsort(found.V2 - found.V1)[: int(found.number)]:

@@ -9,6 +9,7 @@ from mpmath import mp, mpf
 
 import bikestab as bs
 from bikestab.bicycle import Bicycle
+from bikestab.design.sensitivity import two_parts
 from bikestab.errors import InputError
 from bikestab.region.pieces import NAMES
 from tests.design.test_sensitivity import MACHINES
@@ -120,6 +121,21 @@ def test_it_is_the_sigma_that_vrange_names():
     assert bs.first_sigma(PAPER, 0.1, 0.08).value == pytest.approx(record["nearest"]["sigma_min"], rel=1e-13)
     case = bs.first_sigma(Bicycle.preset("meijaard2007"), sigma=-0.01).value
     assert -0.01 < case < -0.005  # -0.005 is stable from 2.787 to 2.860 m/s
+
+
+@pytest.mark.parametrize(
+    "design",
+    [(None, None), (0.1813524440745007, 0.1), (0.34291936554562524, 0.1), (0.4920937242078955, 0.03)],
+)
+def test_both_notations_find_the_same(design):
+    """Where the interval that opens is narrower than the rounding of a table's entries."""
+    machine = Bicycle.preset("meijaard2007")
+    own = bs.first_sigma(machine, *design)
+    other = bs.first_sigma(two_parts(machine), *design)
+    assert own.kind == other.kind == "weave meets capsize"
+    assert (other.value, other.V) == pytest.approx((own.value, own.V), rel=1e-10)
+    for name in ("lam", "g"):
+        assert other.slope[name] == pytest.approx(own.slope[name], rel=1e-8)
 
 
 def test_where_there_is_none():
