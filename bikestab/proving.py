@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pickle
 import time
-from collections.abc import Callable, Generator
-from contextlib import ExitStack, closing
+from collections.abc import Callable, Generator, Iterator
+from contextlib import ExitStack, closing, contextmanager
 from functools import lru_cache
 from hashlib import sha256
 from itertools import pairwise, product
@@ -14,11 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bikestab import __version__
 from bikestab.aside import cores
 from bikestab.certify.box import Box
 from bikestab.certify.proof import Proof
 from bikestab.certify.search import Blocks, Decided, Decides, joined, search
-from bikestab.scan.processes import in_processes
+from bikestab.errors import KEPT, NOT_KEPT, ScanError, WorkersLost
+from bikestab.scan.processes import check_number, in_processes
 from bikestab.scan.spool import MARK, Spool
 
 _SIDE, _SIDE_VARIED = 64, 16  # cells along each side of a part, without tolerances and with
@@ -45,8 +47,11 @@ def prove_in_parts(
 
     After ``most_blocks`` were looked at, each part having its share, what is open stays undecided. Finished
     parts are kept in the file ``keep`` until all are done; from there the same proof goes on if it was
-    stopped. Raises InputError where that file is another's or cannot be written.
+    stopped. Raises InputError for too many processes and where that file is another's or cannot be written,
+    ScanError where a process dies.
     """
+    if jobs:
+        check_number(jobs)
     pickled = pickle.dumps(box)
     parts = [Part(pickled, start, _share(box, start, most_blocks)) for start in _starts(box)]
     with ExitStack() as stack:
@@ -56,6 +61,7 @@ def prove_in_parts(
         done = {number: _read(spool, number, box) for number in spool.notes} if spool else {}
         progress(len(done) / len(parts))
         todo = [(number, part) for number, part in enumerate(parts) if number not in done]
+        stack.enter_context(_told_of(spool))
         finished = stack.enter_context(closing(_finished(todo, jobs or cores())))
         for number, decided in finished:
             done[number] = decided
@@ -66,6 +72,19 @@ def prove_in_parts(
         if spool:
             spool.remove()
     return Proof(box, joined([done[number] for number in range(len(parts))]))
+
+
+@contextmanager
+def _told_of(spool: Spool | None) -> Iterator[None]:
+    """Where a proof ends too early, keep nothing empty, and say of lost processes what is kept."""
+    try:
+        yield
+    except BaseException as error:
+        if spool and not spool.notes:
+            spool.remove()
+        if spool and isinstance(error, WorkersLost):
+            raise ScanError(f"{error}\n{KEPT if spool.notes else NOT_KEPT}") from None
+        raise
 
 
 def decide(part: Part) -> Decided:
@@ -100,19 +119,28 @@ def _share(box: Box, start: Blocks, most_blocks: int | None) -> int:
 
 def _finished(todo: list[tuple[int, Part]], jobs: int) -> Generator[tuple[int, Decided]]:
     """Decide parts here, and when that takes long in processes."""
-    rest, begin = iter(todo), time.monotonic()
-    for number, part in rest:
+    begin = time.monotonic()
+    for done, (number, part) in enumerate(todo, 1):
         yield number, decide(part)
-        if jobs > 1 and time.monotonic() - begin > _ALONE:
-            break
-    yield from in_processes(rest, jobs, decide)
+        processes = min(jobs, len(todo) - done)
+        if processes > 1 and time.monotonic() - begin > _ALONE:
+            yield from in_processes(todo[done:], processes, decide)
+            return
 
 
 def _spool(path: Path, box: Box, most_blocks: int | None) -> Spool:
     """The file of finished parts; those of another proof are dropped, but no other file is."""
     numbers = sorted(box.bicycle.given.items()), box.bicycle.g, box.bicycle.delta
     edges = [each.tolist() for each in box.edges]
-    identity = sha256(repr((numbers, box.model, box.varied, edges, most_blocks)).encode()).hexdigest()
+    asked = (
+        __version__,
+        numbers,
+        box.model,
+        box.varied,
+        edges,
+        most_blocks,
+    )  # another version proves otherwise
+    identity = sha256(repr(asked).encode()).hexdigest()
     ours = False
     if path.is_file():
         with path.open("rb") as file:

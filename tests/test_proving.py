@@ -10,7 +10,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.certify.box import box_of
 from bikestab.certify.proof import prove
 from bikestab.certify.search import UNDECIDED
-from bikestab.errors import InputError
+from bikestab.errors import KEPT, NOT_KEPT, InputError, ScanError, WorkersLost
 from bikestab.proving import prove_in_parts
 
 PAPER = Bicycle.preset("dikarev1981")
@@ -62,6 +62,56 @@ def test_several_processes_say_the_same(box, monkeypatch):
     monkeypatch.setattr(proving, "_ALONE", 0.0)
     one, two = prove_in_parts(box, jobs=1), prove_in_parts(box, jobs=2)
     assert one.certificate("1") == two.certificate("1")
+
+
+def test_no_process_starts_without_a_part_for_it(box, monkeypatch):
+    started = []
+
+    def in_processes(parts, jobs, work):
+        started.append((len(parts), jobs))
+        for number, part in parts:
+            yield number, work(part)
+
+    monkeypatch.setattr(proving, "in_processes", in_processes)
+    prove_in_parts(box, jobs=60)
+    assert started == []  # it does not take long
+    monkeypatch.setattr(proving, "_ALONE", -1.0)
+    found = prove_in_parts(box, jobs=60)
+    prove_in_parts(box, jobs=5)
+    whole = box_of(PAPER, *(edges[:3] for edges in EDGES), "refined", {})
+    prove_in_parts(whole, jobs=60)  # one part
+    assert started == [(11, 11), (11, 5)]
+    assert found.certificate("1") == prove_in_parts(box, jobs=1).certificate("1")
+    with pytest.raises(InputError, match="too many for this machine"):
+        prove_in_parts(box, jobs=10**4)
+
+
+@pytest.mark.parametrize(("finished", "words"), [(1, KEPT), (0, NOT_KEPT)])
+def test_lost_processes_are_told_of_with_what_is_kept(box, tmp_path, monkeypatch, finished, words):
+    keep = tmp_path / "proof.json.parts"
+
+    def lost(todo, jobs):
+        for number, part in todo[:finished]:
+            yield number, proving.decide(part)
+        raise WorkersLost("a worker process died")
+
+    monkeypatch.setattr(proving, "_finished", lost)
+    with pytest.raises(ScanError) as told:
+        prove_in_parts(box, keep=keep)
+    assert str(told.value) == f"a worker process died\n{words}"
+    assert keep.exists() == bool(finished)
+    with pytest.raises(WorkersLost):
+        prove_in_parts(box)  # without a file nothing is said of it
+
+
+def test_parts_of_another_version_are_dropped(box, tmp_path, monkeypatch):
+    keep = tmp_path / "proof.json.parts"
+    with stopped_after(3), pytest.raises(KeyboardInterrupt):
+        prove_in_parts(box, jobs=1, keep=keep)
+    monkeypatch.setattr(proving, "__version__", "0.0.1")
+    shares = []
+    prove_in_parts(box, jobs=1, keep=keep, progress=shares.append)
+    assert shares[0] == 0
 
 
 def test_a_stopped_proof_goes_on(box, tmp_path):

@@ -113,13 +113,15 @@ class Ball:
     def _tables(self, x: Floats, z: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """Tables (5, 4, S), and which are of a machine."""
         steps = dict(zip(self.deviations, self.unit[:, np.newaxis] * z, strict=True))
-        machine, lam, sigma = around(self.bicycle, dict(zip(self.ends, x, strict=True)), steps)
-        lam, sigma = (np.broadcast_to(value, x.shape[1:]) for value in (lam, sigma))
-        good = (np.abs(lam) < _STEEPEST) & (np.abs(sigma) < MOST_TRAIL)
-        if isinstance(machine, Machines):
-            good = good & machine.exist
         with np.errstate(all="ignore"):  # what no machine has may overflow
-            return characteristic_table(machine, lam, sigma, model=self.model), good
+            machine, lam, sigma = around(self.bicycle, dict(zip(self.ends, x, strict=True)), steps)
+            lam, sigma = (np.broadcast_to(value, x.shape[1:]) for value in (lam, sigma))
+            good = (np.abs(lam) < _STEEPEST) & (np.abs(sigma) < MOST_TRAIL)
+            lam, sigma = np.where(good, lam, 0.0), np.where(good, sigma, 0.0)  # of which there are sines
+            if isinstance(machine, Machines):
+                good = good & machine.exist
+            table = characteristic_table(machine, lam, sigma, model=self.model)
+            return np.where(good, table, 0.0), good
 
     def reach(self, x: Floats, u: Floats) -> Floats:
         """How far (S,) rays in directions u (m, S) from designs x (n, S) stay stable; the first end only."""

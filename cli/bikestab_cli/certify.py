@@ -26,7 +26,7 @@ from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.progress import progress
 from bikestab_cli.tolerances import DESIGN, tolerances_of, with_design
 
-from bikestab.errors import InputError
+from bikestab.errors import KEPT, InputError
 from bikestab.gains import GAINS
 from bikestab.units import DAMPING
 
@@ -171,9 +171,7 @@ def _proof(box: Box, jobs: int | None, work: int | None, certificate: str | None
                 progress=lambda share: show(int(cells * share), cells),
             )  # fmt: skip
     except KeyboardInterrupt:
-        kept = keep is not None and keep.exists()
-        hint = "certify: what is finished is kept; the same command goes on from there" if kept else ""
-        raise KeyboardInterrupt(hint) from None
+        raise KeyboardInterrupt(f"certify: {KEPT}" if keep and keep.exists() else "") from None
 
 
 def _edges(name: str, ends: Ends, cells: int) -> Any:

@@ -101,6 +101,7 @@ def test_a_box_of_fork_offsets(bikestab):
         (["nowhere.yaml", "--lam", "1"], "says what --lam says"),
         (["nowhere.yaml", "--head-angle", "71deg"], "says what --head-angle says"),
         (["--head-angle", "74deg:71deg", "--trail", "0.1", "--V", "1:2"], "--head-angle: 1.29154:1.239"),
+        ([*BOX, "--V", "4.6:5", "--jobs", "100000"], "100000 processes are too many"),
         (["--lam", "0.1:0.2", "--offset", "0.03", "--V", "1:2"], "no box of tilts and trails"),
         (["--lam", "0.1", "--trail", "0.1", "--offset", "0.03", "--V", "1:2"], "give two of"),
         (["--offset", "0.03", "--V", "1:2"], "--lam is missing"),

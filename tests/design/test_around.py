@@ -74,6 +74,32 @@ def test_the_radius_is_where_the_design_loses_the_speeds(case):
     assert not holds(1.0001 * z)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("bicycle", "ends", "name"),
+    [
+        (MEIJAARD, {"trail": (0.02, 0.15)}, "lam"),
+        (MEIJAARD, {"trail": (0.02, 0.15)}, "head_angle"),
+        (MEIJAARD, {"lam": (0.1, 0.5)}, "trail"),
+        (MEIJAARD, {"lam": (0.1, 0.5)}, "offset"),
+        (PAPER, {"lam": (0.1, 0.5)}, "R"),
+        (PAPER, {"lam": (0.1, 0.5)}, "m1"),
+        *((MEIJAARD, {"lam": (0.1, 0.5)}, name) for name in ("w", "rF", "mB", "mH", "IHxx", "IHxz", "IFyy")),
+    ],
+)
+def test_rays_go_on_where_no_machine_is(bicycle, ends, name):
+    """As far as to tilts of which there are no sines, negative masses and wheelbases, and trails of 10 km."""
+    ball = Ball(bicycle, "refined", STABLE, ends, {name: 10.0})
+    x = np.full((1, 5), np.mean(list(ends.values())))
+    z = np.array([[-100.0, -1.0, 0.0, 1.0, 100.0]])
+    margin = ball.margin(x, z)
+    assert np.isfinite(margin[[0, 2, 4]]).all()
+    assert margin[0] == -1 or margin[4] == -1
+    assert not ball.certain(x, z)[margin <= 0].any()
+    reach = ball.reach(x[:, :2], np.array([[-1.0, 1.0]]))
+    assert np.all((reach >= 0) & (reach <= 100))
+
+
 def test_one_radius_of_wheels_that_differ_cannot_be_uncertain():
     with pytest.raises(InputError, match="two wheels that differ"):
         Ball(MEIJAARD, "refined", STABLE, {"mB": (60.0, 90.0)}, {"R": 0.01})
