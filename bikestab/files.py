@@ -16,6 +16,7 @@ from typing import BinaryIO
 from bikestab.errors import BikestabError, InputError, ScanError
 
 PATIENCE = 30.0  # s that nobody may read a pipe
+PICTURES = (".png", ".pdf", ".svg")  # the endings of a picture's file
 NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}  # make room, and the same command can succeed
 NOT_THERE = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EISDIR}
 NOT_THERE |= {errno.ELOOP, errno.ENAMETOOLONG, errno.EINVAL, errno.EEXIST, errno.ENOTEMPTY, errno.ENXIO}

@@ -21,7 +21,7 @@ from bikestab.plot.files import save
 from bikestab.region.mesh import region_mesh
 
 OLD = b"what was there" * 100
-PICTURES = (".png", ".pdf", ".svg", ".eps", ".tif")
+PICTURES = (".png", ".pdf", ".svg")
 
 
 @contextmanager

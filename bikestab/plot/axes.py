@@ -32,10 +32,13 @@ def labels_of(family: Family) -> dict[str, str]:
     return {**named, **{name: text for name, text in LABELS.items() if name in {*named, "V"}}}
 
 
-def label_family(ax: Axes, x: str, y: str, family: Family) -> None:
-    """Labels for two of a family's parameters and V; of tilt and trail those of ``label_axes``."""
+def label_family(ax: Axes, x: str, y: str, family: Family, *, one_wheelbase: bool = True) -> None:
+    """Labels for two of a family's parameters and V; of tilt and trail those of ``label_axes``.
+
+    Without the trail in m where what is drawn has not ``one_wheelbase``.
+    """
     if {x, y} <= LABELS.keys() and not _WHEELBASES & {family.x, family.y}:
-        label_axes(ax, x, y, family.bicycle.c)
+        label_axes(ax, x, y, family.bicycle.c if one_wheelbase else None)
         return
     labels = labels_of(family)
     ax.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
@@ -43,9 +46,10 @@ def label_family(ax: Axes, x: str, y: str, family: Family) -> None:
     ax.set_ylabel(labels[y])
 
 
-def label_axes(ax: Axes, x: str, y: str, wheelbase: float) -> None:
+def label_axes(ax: Axes, x: str, y: str, wheelbase: float | None) -> None:
     """Labels for two of λ, σ and V, the head angle [°] or the trail [m] on top, the trail at the right."""
-    to_trail = (lambda sigma: np.asarray(sigma) * wheelbase, lambda trail: np.asarray(trail) / wheelbase)
+    c = wheelbase or 1.0
+    to_trail = (lambda sigma: np.asarray(sigma) * c, lambda trail: np.asarray(trail) / c)
     ax.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
     ax.set_xlabel(LABELS[x])
     ax.set_ylabel(LABELS[y])
@@ -53,11 +57,11 @@ def label_axes(ax: Axes, x: str, y: str, wheelbase: float) -> None:
         top = ax.secondary_xaxis("top", functions=(head_angle, _tilt))
         top.set_xlabel("head angle [°]")
         top.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
-    elif x == "sigma":
+    elif x == "sigma" and wheelbase:
         top = ax.secondary_xaxis("top", functions=to_trail)
         top.set_xlabel("trail [m]")
         top.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
-    if y == "sigma":
+    if y == "sigma" and wheelbase:
         right = ax.secondary_yaxis("right", functions=to_trail)
         right.set_ylabel("trail [m]")
 

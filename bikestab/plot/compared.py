@@ -34,7 +34,8 @@ def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
                 ax.annotate(name[0], place, (7, 5), textcoords="offset points", path_effects=HALO)
         ax.set_xlim(*box.ends[0])
         ax.set_ylim(*box.ends[1])
-        label_family(ax, *box.names, Family(A.bicycle, A.model, *box.names))
+        family = Family(A.bicycle, A.model, *box.names)
+        label_family(ax, *box.names, family, one_wheelbase=A.bicycle.c == B.bicycle.c)
         words = f"Stable regions differ in {100 * region.share:.3g} % of their union"
         set_title(ax, f"{words}; white: no difference")
     return figure

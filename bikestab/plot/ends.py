@@ -24,10 +24,10 @@ _BEYOND = 1.25  # where what is unbounded ends in the picture, of the largest en
 
 
 @own_settings()
-def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "") -> Figure:
+def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "", name: str = "") -> Figure:
     """Machines by name with their designs' stable speeds; ``axis`` is the key of what varies, or empty.
 
-    ``label`` says what it is, if it is none of AXES.
+    ``label`` says what it is, if it is none of AXES, and ``name`` whose designs they all are.
     Raises InputError for more machines than there are lines that differ.
     """
     lines = lines_for(len(machines))
@@ -42,7 +42,8 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "
         legend_below(figure, [entry("V₁", color="0.3"), entry("V₂", color="0.3", lw=0.9)])
     else:
         _bars(ax, machines, lines, top)
-    set_title(ax, "Stable speeds" + ("" if any(V is not None for V in ends) else ": none"))
+    whose = f"{short(name)}: stable speeds" if name else "Stable speeds"
+    set_title(ax, whose + ("" if any(V is not None for V in ends) else ": none"))
     return figure
 
 

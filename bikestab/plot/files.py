@@ -13,7 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from bikestab.errors import InputError, nearest
-from bikestab.files import written
+from bikestab.files import PICTURES, written
 from bikestab.plot.png import png
 from bikestab.plot.settings import own_settings
 
@@ -32,14 +32,11 @@ def save(figure: Figure, path: Path) -> None:
     Raises InputError for an ending that is none of a picture and where the file cannot be written, ScanError
     where the disk is full.
     """
-    known = sorted(set(figure.canvas.get_supported_filetypes()) - {"pgf"})  # which takes a LaTeX
-    ending = path.suffix[1:].lower()
-    if ending not in known:
-        problem = f"Format {ending!r} is not supported" if ending else "has no ending of a picture"
-        meant = nearest(ending, known)
-        hint = meant if meant.startswith("did") else "allowed: .png, .pdf or .svg"
-        raise InputError(problem, place=str(path), hint=hint)
-    write(drawn(figure, ending), path)
+    if path.suffix.lower() not in PICTURES:
+        meant = nearest(path.suffix, PICTURES)
+        hint = meant if meant.startswith("did") else f"allowed: {', '.join(PICTURES)}"
+        raise InputError("has no ending of a picture", place=str(path), hint=hint)
+    write(drawn(figure, path.suffix[1:].lower()), path)
 
 
 @own_settings()

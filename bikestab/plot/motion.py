@@ -40,5 +40,5 @@ def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
     units = {True: "rad/s", False: "rad"}
     pushed = ", ".join(f"{key} = {value:g} {units[key.endswith('rate')]}" for key, value in push.items())
     set_title(top, f"{short(name)} at {found.V:g} m/s after a push: {pushed}")
-    set_title(road, "Paths of the wheels on the road, from above, sideways enlarged")
+    set_title(road, "Paths of the wheels on the road, from above; its two axes have scales of their own")
     return figure

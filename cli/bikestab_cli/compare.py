@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
 from bikestab_cli.options import (
-    FILE,
     NAME,
+    PICTURE,
     at_option,
     check_files,
     equation_options,
@@ -59,7 +59,7 @@ class _Tolerance(click.ParamType):
 @design_options()
 @equation_options
 @at_option
-@click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw both as PNG, PDF or SVG.")
+@click.option("-o", "--output", type=PICTURE, metavar="FILE", help="Draw both as PNG, PDF or SVG.")
 @json_option
 def command(
     one: str,

@@ -9,6 +9,7 @@ from bikestab_cli.options import (
     ANGLE_ENDS,
     FILE,
     LENGTH_ENDS,
+    PICTURE,
     SPEED_ENDS,
     SPEED_VALUE,
     TRAIL_ENDS,
@@ -91,7 +92,7 @@ if TYPE_CHECKING:
 @click.option(
     "-o",
     "--output",
-    type=FILE,
+    type=PICTURE,
     metavar="FILE",
     help="Draw the plane of designs, or what --free found, as PNG, PDF or SVG.",
 )
@@ -196,7 +197,7 @@ def command(
             for each in machines
         ]
     if output:
-        check_picture(output, *ends)
+        check_picture(*ends)
     check_files(csv_file, output)
     bests, curves = search(asked, output)
     found = list(zip(machines, asked, bests, strict=True))

@@ -10,6 +10,7 @@ from bikestab_cli.chosen import Given, design_chosen, design_options
 from bikestab_cli.eigen_views import View, view_options
 from bikestab_cli.options import (
     FILE,
+    PICTURE,
     SPEEDS,
     check_files,
     json_option,
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
 @click.option(
     "-o",
     "--output",
-    type=FILE,
+    type=PICTURE,
     metavar="FILE",
     help="Draw a PNG, PDF or SVG from START to STOP, however coarse NUM.",
 )
@@ -98,10 +99,6 @@ def command(
 
     if output and min(speeds) == max(speeds) and not view.kind:
         raise click.BadParameter("a picture needs a range, for example 0:10:21", param_hint="--V")
-    if output and not Path(output).suffix:
-        raise click.BadParameter(
-            f"{output!r} has no ending, such as .png, .pdf or .svg", param_hint="--output"
-        )
     if locus and (not output or view.kind):
         raise click.BadParameter("it is a picture of its own: give -o FILE", param_hint="--locus")
     check_files(csv_file, output)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bikestab.motion import Motion, Shapes
 
 _ROWS = 11  # of a motion
+_LARGE = 0.5  # rad, beyond which sines and angles are not nearly the same
 _MOST = 60  # values of a parameter
 
 
@@ -52,6 +53,8 @@ def told_motion(machine: Chosen, design: Any, found: Motion, push: Mapping[str, 
     names = ["t\n[s]", "roll\n[rad]", "steer\n[rad]", "yaw\n[rad]"]
     names += ["along\n[m]", "rear wheel\n[m]", "front wheel\n[m]"]
     note = "all positive to the right; the wheels' contacts are so far to the right of the line ridden before"
+    if abs(found.states[:2]).max() > _LARGE:
+        note += f"\nthe model is linear: beyond about {_LARGE:g} rad these angles are not those of a machine"
     return _whole(machine, design, model, [f"at {found.V:.6g} m/s after {pushed}", table(names, rows), note])
 
 

@@ -21,6 +21,7 @@ from bikestab_cli.parameters import (
 from bikestab_cli.riders import rider_option, with_its_rider
 
 from bikestab.errors import InputError
+from bikestab.files import PICTURES
 from bikestab.units import ANGLE, DAMPING, LENGTH, PURE, SPEED, Units, quantity
 
 if TYPE_CHECKING:
@@ -87,8 +88,9 @@ class Name(click.ParamType):
 
     name = "text"
 
-    def __init__(self, *, of_file: bool = False) -> None:
+    def __init__(self, *, of_file: bool = False, of_picture: bool = False) -> None:
         self.of_file = of_file
+        self.of_picture = of_picture
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         text = str(value)
@@ -96,6 +98,8 @@ class Name(click.ParamType):
             self.fail(f"{text!r} is no name", param, ctx)
         if self.of_file and (text.endswith(("/", os.sep)) or Path(text).name in ("", "..")):
             self.fail(f"{text!r} is a folder, not a file to write", param, ctx)
+        if self.of_picture and Path(text).suffix.lower() not in PICTURES:
+            self.fail(f"{text!r} has no ending {', '.join(PICTURES[:-1])} or {PICTURES[-1]}", param, ctx)
         return text
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[Any]:
@@ -105,7 +109,7 @@ class Name(click.ParamType):
         return completed(incomplete, bicycles=param.name == "bicycle_name")
 
 
-NAME, FILE = Name(), Name(of_file=True)
+NAME, FILE, PICTURE = Name(), Name(of_file=True), Name(of_file=True, of_picture=True)
 _KINDS: tuple[tuple[str, Units], ...] = (
     ("angle", ANGLE), ("number", PURE), ("speed", SPEED), ("length", LENGTH),
 )  # fmt: skip

@@ -10,6 +10,7 @@ import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
 from bikestab_cli.options import (
     FILE,
+    PICTURE,
     check_files,
     json_option,
     sd_option,
@@ -38,7 +39,9 @@ if TYPE_CHECKING:
 )  # fmt: skip
 @several_machines
 @sd_option
-@click.option("-o", "--output", type=FILE, metavar="FILE", help="Draw the effects as bars: PNG, PDF or SVG.")
+@click.option(
+    "-o", "--output", type=PICTURE, metavar="FILE", help="Draw the effects as bars: PNG, PDF or SVG."
+)
 @click.option("--csv", "csv_file", type=FILE, metavar="FILE", help="Write all rows at full precision.")
 @json_option
 def command(

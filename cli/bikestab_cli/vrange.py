@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_designs, is_single
 from bikestab_cli.options import (
-    FILE,
+    PICTURE,
     check_files,
     json_option,
     over_option,
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 @several_machines
 @sd_option
 @click.option(
-    "-o", "--output", type=FILE, metavar="FILE",
+    "-o", "--output", type=PICTURE, metavar="FILE",
     help="Draw the stable speeds as PNG, PDF or SVG: over one range, or a bar for each machine.",
 )  # fmt: skip
 @json_option

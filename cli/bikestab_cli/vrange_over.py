@@ -97,4 +97,5 @@ def _draw(
             curves.setdefault(", ".join([*whose, *values]), []).append({**answer, **own})
     p = parameter_of(machines[0].bicycle, along)
     label = "" if axis in AXES else f"{p.meaning} {p.name} [{p.unit}]"
-    save(draw_ends(list(curves.items()), axis, label), Path(output))
+    name = machines[0].words if len(machines) == 1 else ""
+    save(draw_ends(list(curves.items()), axis, label, name), Path(output))

@@ -247,3 +247,9 @@ def test_volumes_and_configs_over_other_parameters(bikestab):
     ]
     share = np.mean(signs[0] != signs[1]) / np.mean(signs[0] | signs[1])
     assert found["region"]["share"] == pytest.approx(share, abs=0.03)
+
+
+def test_trails_in_metres_only_of_one_wheelbase(bikestab):
+    for other, there in (("sharp1971", False), ("meijaard2007", True)):
+        assert bikestab("compare", "meijaard2007", other, "-o", "a.svg")[0] == 0
+        assert ("<!-- trail [m] -->" in Path("a.svg").read_text(encoding="utf-8")) == there

@@ -170,3 +170,10 @@ def test_a_head_angle_is_drawn_in_degrees():
     (ax,) = draw_against("own", found, 5.0, "rad").axes
     assert ax.get_xlabel() == "head_angle [°]"
     assert ax.get_xlim() == pytest.approx((68, 74))
+
+
+def test_a_motion_that_a_linear_model_cannot_tell(bikestab):
+    args = ("eigen", "--bicycle", "meijaard2007", "--push", "roll=5deg", "--at", "8", "--until")
+    sentence = "the model is linear: beyond about 0.5 rad"
+    assert sentence in bikestab(*args, "20")[1]
+    assert sentence not in bikestab(*args, "1")[1]

@@ -151,3 +151,17 @@ def test_an_output_is_replaced_by_the_next(bikestab):
     for _ in range(2):
         assert bikestab("check", "a.yaml", "--junit", "results.yaml")[0] == 0
         assert bikestab("eigen", "--bicycle", "meijaard2007", "--csv", "a.csv")[0] == 0
+
+
+@pytest.mark.parametrize(
+    "args",
+    [
+        ("vrange",), ("eigen",), ("bicycles", "sharp1971"), ("design",), ("design", "--free", "lam=0.1:0.2"),
+        ("sensitivity",), ("compare", "sharp1971", "meijaard2007"), ("vrange", "--over", "delta=0:1:2"),
+    ],
+)  # fmt: skip
+def test_every_command_takes_the_same_formats(bikestab, args):
+    code, out, err = bikestab(*args, "-o", "x.gif")
+    assert (code, out) == (2, "")
+    assert "'x.gif' has no ending .png, .pdf or .svg" in err
+    assert not Path("x.gif").exists()

@@ -536,3 +536,9 @@ def test_over_with_deviations_and_as_a_picture(bikestab):
     code, out, err = bikestab(*args[:3], "--over", "mB=60:110:2", "--lam", "0.3")
     assert (code, out) == (2, "")
     assert "--over says what varies" in err
+
+
+def test_a_picture_over_parameters_names_the_machine(bikestab):
+    args = ("vrange", "--bicycle", "meijaard2007", "--over", "mB=60:110:3", "--over", "offset=0:60mm:2")
+    assert bikestab(*args, "-o", "a.svg")[0] == 0
+    assert "<!-- meijaard2007: stable speeds -->" in Path("a.svg").read_text(encoding="utf-8")

@@ -17,10 +17,12 @@ def test_formats(tmp_path, name, start):
 
 
 def test_an_unknown_format(tmp_path):
-    with pytest.raises(InputError, match=r"a\.pgn: Format 'pgn' is not supported\ndid you mean 'png'"):
+    with pytest.raises(InputError, match=r"a\.pgn: has no ending of a picture\ndid you mean '\.png'"):
         save(Figure(), tmp_path / "a.pgn")
-    with pytest.raises(InputError, match=r"/a: has no ending of a picture\nallowed: \.png, \.pdf or \.svg"):
+    with pytest.raises(InputError, match=r"/a: has no ending of a picture\nallowed: \.png, \.pdf, \.svg"):
         save(Figure(), tmp_path / "a")
+    with pytest.raises(InputError, match=r"x\.gif: has no ending of a picture"):
+        save(Figure(), tmp_path / "x.gif")
     assert list(tmp_path.iterdir()) == []
 
 
