@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -152,18 +153,17 @@ def _damped(entries: Entries, name: str) -> Found:
     condition = _P1 if name == "p1" else _HURWITZ3
     c = condition.polynomial(entries.doubles())
     found = _found(zeros_between(entries, condition, c), c)
-    if name == "p1":
-        return _again(found, entries, _fine_p1)
-    return _again(found, entries, _fine_hurwitz3, _left_hurwitz3, _guessed_hurwitz3)
+    fine, guess = partial(_fine, name=name), partial(_guessed, name=name)
+    return _again(found, entries, fine, *((_left_hurwitz3, guess) if name == "hurwitz3" else ()))
 
 
-def _fine_p1(entries: Entries) -> Found:
-    p1 = _rows(entries.numbers)[1]
-    return _found(zeros_of(p1, len(entries)), p1)
+def _any(entries: Entries, name: str) -> Found:
+    """Tables of other systems, with any powers of V."""
+    return _again(_fine(entries, name), entries, partial(_guessed, name=name))
 
 
-def _fine_hurwitz3(entries: Entries) -> Found:
-    polynomial = hurwitz3_of(_rows(entries.numbers))
+def _fine(entries: Entries, name: str) -> Found:
+    polynomial = _polynomial(entries, name)
     return _found(zeros_of(polynomial, len(entries)), polynomial)
 
 
@@ -173,9 +173,9 @@ def _left_hurwitz3(entries: Entries) -> Found:
     return _found(zeros_of(polynomial, len(entries), CANCELLED), polynomial)
 
 
-def _guessed_hurwitz3(entries: Entries) -> Found:
+def _guessed(entries: Entries, name: str) -> Found:
     """By the coefficients' signs as they are computed, so that the sign before and the zeros fit together."""
-    polynomial = hurwitz3_of(_rows(entries.numbers))
+    polynomial = _polynomial(entries, name)
     return _found(zeros_of(polynomial, len(entries), found=guessed(polynomial, len(entries))), polynomial)
 
 
@@ -196,13 +196,12 @@ def _again(found: Found, entries: Entries, *ways: Callable[[Entries], Found]) ->
     return zeros, sign
 
 
-def _any(entries: Entries, name: str) -> Found:
-    """Tables of other systems, with any powers of V."""
+def _polynomial(entries: Entries, name: str) -> list[Twofold | None]:
+    """A condition, times a power of V where there is V^−1."""
     rows = _rows(entries.numbers)
-    polynomial = hurwitz3_of(rows) if name == "hurwitz3" else rows[CONDITIONS.index(name)]
-    if name == "hurwitz3" and (4, -1) in entries.numbers:
-        polynomial = without_noise(polynomial)
-    return _found(zeros_of(polynomial, len(entries)), polynomial)
+    if name != "hurwitz3":
+        return rows[CONDITIONS.index(name)]
+    return without_noise(hurwitz3_of(rows)) if (4, -1) in entries.numbers else hurwitz3_of(rows)
 
 
 def _rows(numbers: dict[tuple[int, int], T]) -> list[list[T | None]]:

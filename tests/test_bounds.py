@@ -12,6 +12,7 @@ from mpmath import mp, mpf
 from bikestab.bicycle import Bicycle
 from bikestab.machines import Machines
 from bikestab.model import characteristic_table, exact_table
+from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import KINDS, REASONS, intervals_of
 from tests.references import verify_speeds
 from tests.strategies import lams, paper_machines, sigmas
@@ -203,6 +204,18 @@ def test_signs_tell_what_slopes_do_not():
         exact_table(Bicycle.preset("dikarev1981").with_delta(1e-9), 0.1, 0.10422909769221915)
     )
     assert found.number == found.marginal[0] == 0
+
+
+def test_what_is_undecided_at_rest_with_feedback_in_proportion_to_speed():
+    """Where hurwitz3 is zero at rest, its sign above rest and its zeros there fit together."""
+    bicycle = Bicycle.preset("dikarev1981").replaced({"k_phi_V": -13.9, "delta": 10.0})
+    lam, sigma = -0.09470734735335543, 0.20714816996977914 + np.linspace(-3e-12, 3e-12, 401)
+    table = exact_table(bicycle, lam, sigma)
+    for V in (0.1, 1.0, 3.0, 10.0, 100.0):
+        assert growth_rate_of(table.value, V).min() > 0.1
+    found = intervals_of(table)
+    assert not found.number.any()
+    assert 0 < np.count_nonzero(found.marginal) < 401
 
 
 def test_a_sample_of_random_machines_in_400_bits():
