@@ -19,6 +19,7 @@ from scipy.optimize import linprog
 
 from bikestab.bicycle import Bicycle
 from bikestab.design.around import around, values_around
+from bikestab.design.rays import FARTHEST, first_ends
 from bikestab.draws import evenly
 from bikestab.errors import InputError
 from bikestab.limits import MOST_TRAIL
@@ -28,12 +29,9 @@ from bikestab.routh import conditions
 from bikestab.speeds import intervals_of
 from bikestab.variants import check_names, own_value
 
-FARTHEST = 100.0  # standard deviations; a larger ball is cut
 _RAYS, _MANY = 32, 1024  # directions that are tried while the centre moves, and at its end
 _CONTACTS, _APART = 12, 0.95  # nearest ends that are refined together, and the cosine of what is apart
 _TURNS = 8  # steps of theirs
-_MARCH, _PARTS = 24, 12  # steps of a ray to FARTHEST; into how many parts the last is cut
-_SECANTS, _NARROW = 12, 1e-8  # steps into that part, at most, and how narrow it becomes
 _SPEEDS = 7  # at which the conditions are looked at
 _STEEPEST = 1.57  # rad
 _STARTS, _TRIED = 2, 128
@@ -124,35 +122,11 @@ class Ball:
             return np.where(good, table, 0.0), good
 
     def reach(self, x: Floats, u: Floats) -> Floats:
-        """How far (S,) rays in directions u (m, S) from designs x (n, S) stay stable; the first end only."""
-        steps = np.concatenate([[0.0], np.geomspace(0.02, FARTHEST, _MARCH)])
-        low, high = np.zeros(u.shape[1]), np.full(u.shape[1], FARTHEST)
-        ray = np.arange(u.shape[1])
-        for share in (steps / FARTHEST, np.linspace(0, 1, _PARTS + 1)):
-            far = low + (high - low) * share[:, np.newaxis]  # (part, S)
-            points = np.tile(x, len(far)), (far * u[:, np.newaxis]).reshape(len(u), -1)
-            margin = self.margin(*points).reshape(far.shape)
-            lost = margin[1:-1] <= 0
-            first = np.where(lost.any(axis=0), lost.argmax(axis=0), len(lost))
-            low, high = far[first, ray], far[first + 1, ray]
-        return self._narrowed(x, u, (low, high), (margin[first, ray], margin[first + 1, ray]))
+        """How far (S,) rays in directions u (m, S) from designs x (n, S) stay stable, in standard deviations.
 
-    def _narrowed(
-        self, x: Floats, u: Floats, ends: tuple[Floats, Floats], values: tuple[Floats, Floats]
-    ) -> Floats:
-        """The last known stable distance (S,) of those in between, by the Illinois method."""
-        (low, high), (inside, outside) = ends, values
-        for _ in range(_SECANTS):
-            with np.errstate(divide="ignore", invalid="ignore"):
-                share = np.clip(inside / (inside - outside), 0.01, 0.99)
-            at = low + (high - low) * np.where(np.isnan(share), 0.5, share)
-            value = self.margin(x, at * u)
-            kept = value > 0  # the other end's value is halved where it stays
-            low, high = np.where(kept, at, low), np.where(kept, high, at)
-            inside, outside = np.where(kept, value, 0.5 * inside), np.where(kept, 0.5 * outside, value)
-            if np.all(high - low <= _NARROW * high):
-                break
-        return low
+        The first end only; a ball that is larger than FARTHEST is cut.
+        """
+        return first_ends(lambda far, ray: self.margin(x[:, ray], far * u[:, ray]), u.shape[1])
 
 
 def directions(dimensions: int, number: int) -> Floats:
