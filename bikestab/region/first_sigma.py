@@ -19,7 +19,7 @@ from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.model import ExactTable, Floats, Model
 from bikestab.region.lines import stable_ranges
-from bikestab.region.nearest import SIGMA_RANGE
+from bikestab.region.nearest import searched
 from bikestab.region.pieces import NAMES
 from bikestab.region.skeleton import CurveName
 from bikestab.routh import condition_polynomials
@@ -87,8 +87,8 @@ def first_sigma(
 
     Notes
     -----
-    Searched over −0.5 ≤ σ ≤ 0.5. By the implicit function theorem, where conditions of (2.2) in Dikarev,
-    Dikareva and Fufaev (1981) vanish together, or a coefficient of one does.
+    Searched over −0.5 ≤ σ ≤ 0.5, or on to the design. By the implicit function theorem, where conditions
+    of (2.2) in Dikarev, Dikareva and Fufaev (1981) vanish together, or a coefficient of one does.
 
     Examples
     --------
@@ -103,7 +103,7 @@ def first_sigma(
         hint = "give one lam and one sigma"
         raise InputError("the first σ is that of one design", key=("lam",), hint=hint)
     tilt, own = (float(each) for each in design)
-    low, high = min(SIGMA_RANGE[0], own), max(SIGMA_RANGE[1], own)
+    _, (low, high) = searched(tilt, own)
     family = Family(machine, model)
     (ranges,) = stable_ranges(family, low, high, x=tilt, among=own)
     start = next((start for start, stop in ranges if stop >= own), None)

@@ -13,7 +13,7 @@ from bikestab.region.lines import stable_ranges
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
 
-LAM_RANGE, SIGMA_RANGE = (-0.2, 0.6), (-0.5, 0.5)  # rad, 1: what is searched
+LAM_RANGE, SIGMA_RANGE = (-0.2, 0.6), (-0.5, 0.5)  # rad, 1: what is searched, and on to the design
 V_MAX = 50.0  # m/s, up to which the smallest growth rate is searched
 _DECIMALS = 6, 17  # fewest and most of a rounded number
 
@@ -23,7 +23,7 @@ class Nearest(TypedDict):
 
     ``sigma_min`` and ``sigma_max`` are the nearest larger and the nearest smaller σ at this λ with a stable
     speed; ``lam_min`` … ``lam_max`` the nearest range of λ at this σ with one: each has a stable speed
-    itself, and next to it is one that has none, or the end of what is searched (LAM_RANGE, SIGMA_RANGE).
+    itself, and next to it is one that has none, or the end of what is ``searched``.
     ``V`` [m/s] is the speed with the smallest growth rate [s⁻¹] up to V_MAX, None where an
     eigenvalue is infinite (p4 = 0).
     """
@@ -36,13 +36,20 @@ class Nearest(TypedDict):
     growth_rate: float | None
 
 
+def searched(lam: float, sigma: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The ranges of λ and σ that are searched for a design: the usual ones, or on to the design."""
+    (low, high), (least, most) = LAM_RANGE, SIGMA_RANGE
+    return (min(low, lam), max(high, lam)), (min(least, sigma), max(most, sigma))
+
+
 def nearest_stable(family: Family, lam: float, sigma: float) -> Nearest:
     """What is nearest to stability around a design (λ [rad], σ [1]) that has no stable speed.
 
     ``family`` is one over lam and sigma.
     """
-    (sigmas,) = stable_ranges(family, *SIGMA_RANGE, x=lam, among=sigma)
-    (lams,) = stable_ranges(family, *LAM_RANGE, y=sigma, among=lam)
+    lam_range, sigma_range = searched(lam, sigma)
+    (sigmas,) = stable_ranges(family, *sigma_range, x=lam, among=sigma)
+    (lams,) = stable_ranges(family, *lam_range, y=sigma, among=lam)
     close = min(lams, key=lambda ends: min(abs(end - lam) for end in ends), default=None)
     table = family.table(lam, sigma)
     V, growth = _slowest(lambda V: growth_rate_of(table, V))

@@ -128,15 +128,19 @@ def _rows(answers: list[Answer], digits: int) -> list[list[str]]:
 def _advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
     """What would help, and what was searched for it; designs are rounded so that they can be typed in."""
     from bikestab.family import Family
-    from bikestab.region.nearest import LAM_RANGE, SIGMA_RANGE, V_MAX, rounded
+    from bikestab.region.nearest import V_MAX, rounded, searched
 
     family = Family(bicycle, model)
     nearest: Any = answer["nearest"]  # read by computed keys
     lam, sigma = answer["lam"], answer["sigma"]
+    lam_range, sigma_range = searched(lam, sigma)
     trails = []
-    for key, way, side in (("sigma_min", 1, "above"), ("sigma_max", -1, "below")):
+    for key, way, side, end in (
+        ("sigma_min", 1, "above", sigma_range[1]),
+        ("sigma_max", -1, "below", sigma_range[0]),
+    ):
         if nearest[key] is None:
-            trails.append(f"none {side}")
+            trails.append(f"none {'searched ' if sigma == end else ''}{side}")
         else:
             text = rounded(lambda value: family.exact_table(lam, value), nearest[key], way)
             trails.append(f"σ = {text} {side} (trail {float(text) * bicycle.c:.4f} m)")
@@ -148,10 +152,12 @@ def _advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
         ]
         angles = "λ = {} ... {} rad".format(*ends)
         angles += " (head angle {:.2f} ... {:.2f}°)".format(*(90 - math.degrees(float(end)) for end in ends))
+        if limits := [f"{end:g}" for end in lam_range if end in (nearest["lam_min"], nearest["lam_max"])]:
+            angles += f", at least: the search ends at {' and '.join(limits)}"
     lines = [
         f"nearest stable speed at this λ: {', '.join(trails)}",
         f"nearest stable speed at this σ: {angles}",
-        f"searched: σ = {_span(SIGMA_RANGE)}, λ = {_span(LAM_RANGE)} rad, V = 0 ... {V_MAX:g} m/s",
+        f"searched: σ = {_span(sigma_range)}, λ = {_span(lam_range)} rad, V = 0 ... {V_MAX:g} m/s",
     ]
     if nearest["V"] is not None:
         lines.append(

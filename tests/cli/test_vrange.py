@@ -183,6 +183,20 @@ def test_advice_says_what_was_searched_and_looks_both_ways(vrange):
     assert least.startswith("least unstable at ")
 
 
+def test_advice_searches_on_to_the_design(vrange):
+    """Stable up to σ = 1.047, beyond the usual range; and stable at λ = 0.65, where no search goes."""
+    design = ["--bicycle", "meijaard2007", "--lam", "18deg", "--sigma", "1.5"]
+    found = results(vrange, *design)["results"][0]["nearest"]
+    assert (found["sigma_min"], found["sigma_max"]) == (None, pytest.approx(1.047346, abs=1e-6))
+    words = " ".join(vrange(*design)[1].split())
+    assert "at this λ: none searched above, σ = 1.047346 below" in words
+    assert "0.600000 rad (head angle 67.83 ... 55.62°), at least: the search ends at 0.6" in words
+    assert "searched: σ = -0.5 ... 1.5," in words
+    (beyond,) = results(vrange, "--bicycle", "meijaard2007", "--lam", "0.65", "--sigma", "1.5")["results"]
+    assert beyond["intervals"]
+    assert "none searched below" in " ".join(vrange(*design[:-1], "-0.7")[1].split())
+
+
 def test_ranges(vrange):
     found = results(vrange, "--lam", "0.05:0.3:6", "--sigma", "0.1:0.15:2")
     pairs = [(r["lam"], r["sigma"]) for r in found["results"]]
