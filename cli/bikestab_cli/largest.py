@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 _DESIGN = ("lam", "sigma", "trail", "head_angle", "offset")
 _SIDES = {"head_angle": math.radians(1), "trail": 0.01}  # without --sd
-_TOLD = 0.001  # of a speed [m/s]
+_DIGITS = 3  # of a speed [m/s] after the point, at least
 
 
 def check_certified(certified: bool, others: object) -> None:
@@ -130,11 +131,25 @@ def _words(found: Largest, changes: str) -> str:
     for name in proof.varied:
         unit = around.bicycle.notation[name].rpartition("[")[2][:-1]
         parts.append(f"{name} {_within(*box[name])} {unit}")
-    low, high = math.ceil(box["V"][0] / _TOLD) * _TOLD, math.floor(box["V"][1] / _TOLD) * _TOLD
+    speeds = told_speeds(*box["V"], given="V" not in around.sides)
     head = heading(around.bicycle, around.model) + (f" ({changes})" if changes else "")
     what = f"all designs, speeds and machines in this box, {found.factor:.4g} times the sides"
-    told = f"{head}\nproved stable: {', '.join(parts)}, {low:.3f} ... {high:.3f} m/s"
+    told = f"{head}\nproved stable: {', '.join(parts)}, {speeds} m/s"
     return "\n\n".join(map(prose, [told, f"{what}, by {proof.box.method}; {_beyond(found)}"]))
+
+
+def told_speeds(low: float, high: float, *, given: bool) -> str:
+    """Two speeds as they were given, else rounded inwards, with as many digits as keep their order."""
+    if given or low == high:
+        short = {V: f"{V:.{_DIGITS}f}" for V in (low, high)}
+        return " ... ".join(short[V] if float(short[V]) == V else repr(V) for V in (low, high))
+    digits = _DIGITS
+    while True:
+        unit = Decimal(1).scaleb(-digits)
+        ends = Decimal(low).quantize(unit, ROUND_CEILING), Decimal(high).quantize(unit, ROUND_FLOOR)
+        if ends[0] <= ends[1]:
+            return f"{ends[0]} ... {ends[1]}"
+        digits += 1
 
 
 def _beyond(found: Largest) -> str:

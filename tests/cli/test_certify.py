@@ -2,9 +2,11 @@
 
 import json
 import math
+from decimal import Decimal
 from pathlib import Path
 
 import pytest
+from bikestab_cli.largest import told_speeds
 
 import bikestab.proving as proving
 from tests.plot.test_proved import CONFIG
@@ -197,6 +199,35 @@ def test_mistakes_of_the_largest_box(bikestab, options, words):
     code, out, err = bikestab("design", *options)
     assert (code, out) == (2, "")
     assert words in err
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "given", "words"),
+    [
+        (5.1, 5.1, True, "5.100 ... 5.100"),
+        (4.60005, 5.4, True, "4.60005 ... 5.400"),
+        (5.1, 5.1, False, "5.100 ... 5.100"),
+        (4.5521, 5.7639, False, "4.553 ... 5.763"),
+        (5.4, 5.6, False, "5.401 ... 5.599"),  # the doubles are above 5.4 and below 5.6, by 4e-16
+        (5.09996, 5.10004, False, "5.100 ... 5.100"),
+        (5.10011, 5.10019, False, "5.10011 ... 5.10018"),
+        (5.4, math.nextafter(5.4, 6), False, "5.400000000000001 ... 5.400000000000001"),
+    ],
+)
+def test_speeds_are_told_as_they_were_given_or_within(low, high, given, words):
+    assert told_speeds(low, high, given=given) == words
+    ends = [Decimal(text) for text in words.split(" ... ")]
+    assert ends[0] <= ends[1]
+    if given:
+        assert [*map(float, ends)] == [low, high]
+    elif low < high:
+        assert Decimal(low) <= ends[0]
+        assert ends[1] <= Decimal(high)
+
+
+def test_the_largest_box_at_one_speed(bikestab):
+    out = bikestab("design", "--certified", "--bicycle", "meijaard2007", "--stable", "5.1:5.1")[1]
+    assert "5.100 ... 5.100 m/s" in out
 
 
 def test_a_proof_that_is_stopped_goes_on(bikestab, tmp_path, monkeypatch):
