@@ -9,7 +9,7 @@ from bikestab.scan.run import run_scan
 from bikestab.scan.tile import compute
 from tests import volumes
 
-settings.register_profile("bikestab", deadline=None)  # no test is about time on a busy machine
+settings.register_profile("bikestab", settings(), deadline=None)  # no test is about time on a busy machine
 settings.load_profile("bikestab")
 
 
