@@ -126,8 +126,7 @@ class Machine:
             return Near(middle, [slope * (i == axis) for i in range(len(box))], rest)
 
         (t, r), *_ = spans = [((a + b) / 2, (b - a) / 2) for a, b in box]
-        s = 1 + t * t
-        values = 2 * t / s, 2 * (1 - t * t) / s**2 * r, (1 - t * t) / s, -4 * t / s**2 * r
+        values = 2 * t / (s := 1 + t * t), 2 * (1 - t * t) / s**2 * r, (1 - t * t) / s, -4 * t / s**2 * r
         places = [F(round(x * 2**80), 2**80) for x in values]
         sin = along(0, places[0], places[1], 3 * r * r / 2 + F(1, 2**80))  # |sin''| < 3, |cos''| ≤ 4, by t
         cos = along(0, places[2], places[3], 2 * r * r + F(1, 2**80))
@@ -138,8 +137,7 @@ class Machine:
 
     def holds(self, box: Box, verdict: int) -> bool:
         """Whether the conditions have the right signs on all parts of a box."""
-        parts = [box]
-        for part in parts:
+        for part in (parts := [box]):
             found = self.conditions(part)
             if not right(found, verdict):
                 middle = [((a + b) / 2,) * 2 for a, b in part]
@@ -192,8 +190,10 @@ def check(certificate: dict[str, Any], tell: Any = lambda cells: None) -> str:
         if (verdict == STABLE and low[2] == 0 and not machine.damped) or not machine.holds(box, verdict):
             raise Refuted(f"block {ends} is not proved: verdict {verdict}")
         tell(len(seen))
-    return f"{len(certificate['blocks'])} blocks hold, {len(seen)} of {total} cells"
+    number = len(certificate["blocks"])
+    return f"{number} block{' holds' if number == 1 else 's hold'}, {len(seen)} of {total} cells"
 
 
 if __name__ == "__main__":
+    sys.excepthook = lambda _, error, __: sys.stderr.write(f"{' '.join(sys.argv[1:])}: {error!r}\n")
     sys.stdout.write(check(json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))) + "\n")

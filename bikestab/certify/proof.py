@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -45,36 +45,17 @@ class Proof:
     @cached_property
     def cells(self) -> NDArray[np.uint8]:
         """0 undecided, 1 proved stable, 2 proved unstable, whatever is varied; shape (lam, sigma, V)."""
-        each = self.decided.on_cells()
-        each = each.reshape(*each.shape[:3], -1)
-        first = each[..., 0]
-        return np.where((each == first[..., np.newaxis]).all(axis=-1), first, np.uint8(UNDECIDED))
+        return cells_of(self.decided)
 
     @cached_property
     def fractions(self) -> tuple[float, float, float]:
         """Shares of the box's volume that are undecided, proved stable and proved unstable."""
-        lam, sigma, V = (
-            np.diff(edges) / (edges[-1] - edges[0]) if edges[-1] > edges[0] else np.ones(1)
-            for edges in self.edges[:3]
-        )
-        shares = [0.0] * 3
-        for width, layer in zip(lam, self.cells, strict=True):  # one by one, for the memory
-            for k in range(3):
-                shares[k] += float(width * (sigma @ ((layer == k) @ V)))
-        for k in range(3):  # whole boxes without the rounding of sums
-            if np.all(self.cells == k):
-                return tuple(float(i == k) for i in range(3))  # type: ignore[return-value]  # of three
-        return shares[UNDECIDED], shares[STABLE], shares[UNSTABLE]
+        return fractions_of(self.cells, self.edges)
 
     @property
     def verdict(self) -> str:
         """``stable``, ``unstable``, ``mixed`` if both are there for certain, else ``undecided``."""
-        found = set(np.unique(self.decided.verdicts).tolist())
-        if found == {STABLE}:
-            return "stable"
-        if found == {UNSTABLE}:
-            return "unstable"
-        return "mixed" if {STABLE, UNSTABLE} <= found else "undecided"
+        return verdict_of(self.decided.verdicts)
 
     def counterexample(self) -> dict[str, Any] | None:
         """The middle of the largest block that is proved unstable in a box that is not all so."""
@@ -144,6 +125,37 @@ class Proof:
         }
         told["sha256"] = sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
         return json.dumps(told)
+
+
+def cells_of(decided: Decided) -> NDArray[np.uint8]:
+    """What cells of λ, σ and V are, whatever is varied."""
+    each = decided.on_cells()
+    each = each.reshape(*each.shape[:3], -1)
+    first = each[..., 0]
+    return np.where((each == first[..., np.newaxis]).all(axis=-1), first, np.uint8(UNDECIDED))
+
+
+def fractions_of(cells: NDArray[np.uint8], edges: Sequence[Floats]) -> tuple[float, float, float]:
+    """Shares of a box's volume whose cells are undecided, proved stable and proved unstable."""
+    lam, sigma, V = (np.diff(e) / (e[-1] - e[0]) if e[-1] > e[0] else np.ones(1) for e in edges[:3])
+    shares = [0.0] * 3
+    for width, layer in zip(lam, cells, strict=True):  # one by one, for the memory
+        for k in range(3):
+            shares[k] += float(width * (sigma @ ((layer == k) @ V)))
+    for k in range(3):  # whole boxes without the rounding of sums
+        if np.all(cells == k):
+            return tuple(float(i == k) for i in range(3))  # type: ignore[return-value]  # of three
+    return shares[UNDECIDED], shares[STABLE], shares[UNSTABLE]
+
+
+def verdict_of(verdicts: NDArray[np.uint8]) -> str:
+    """The verdict on a box of verdicts on its parts."""
+    found = set(np.unique(verdicts).tolist())
+    if found == {STABLE}:
+        return "stable"
+    if found == {UNSTABLE}:
+        return "unstable"
+    return "mixed" if {STABLE, UNSTABLE} <= found else "undecided"
 
 
 def prove(

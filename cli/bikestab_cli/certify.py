@@ -99,7 +99,7 @@ def command(
     A scan tells of the points of a grid; this tells of every point between them. The box of a config, or
     the one between two tilts (or head angles), two trails and two speeds, is cut into cells, and each is
     proved to be stable throughout, to be unstable throughout, or stays undecided, as do those with the
-    boundary in them. The numbers are the
+    boundary in them or near it. The numbers are the
     exact doubles that are given; all rounding is bounded. With --tolerance a cell is proved for all
     machines in the range; one of head_angle, trail, offset, lam or sigma is a side of the box.
 
@@ -121,7 +121,7 @@ def command(
     if verify:
         from bikestab_cli.verify import verify_certificate
 
-        verify_certificate(verify, quiet)
+        verify_certificate(verify, quiet, as_json)
         return
     from bikestab import __version__
     from bikestab.certify.box import box_of

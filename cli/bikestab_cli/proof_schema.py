@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bikestab_cli.shapes import MODEL, NUMBERS, flag, maybe, named, num, record, some, words
+from bikestab_cli.shapes import MODEL, NUMBERS, either, flag, maybe, named, num, record, some, whole, words
 
 PAIR = {"type": "array", "items": NUMBERS, "minItems": 2, "maxItems": 2}
 LARGEST = record(
@@ -16,7 +16,7 @@ LARGEST = record(
     unstable_from=maybe("the smallest factor at which a corner is known that is not stable"),
     unstable={"type": ["object", "null"], "description": "that corner and its growth_rate [1/s]"},
 )  # fmt: skip
-CERTIFY = record(
+_PROOF = record(
     "a proof; one object without results", ("files",), bicycle=words("its name"), model=MODEL,
     delta=num("steering damping [kg m²/s]"), box=named(PAIR, "the ends of what varies"),
     cells=some({"type": "integer"}, "along each"),
@@ -29,4 +29,20 @@ CERTIFY = record(
     ),
     stopped=flag("at the limit of --work"),
     counterexample={"type": ["object", "null"], "description": "a point that is not as the rest"},
+)  # fmt: skip
+_SAME = ("model", "box", "cells", "verdict", "proved_stable", "proved_unstable", "undecided")
+_VERIFIED = {
+    "notation": {"enum": ["two parts", "four bodies"], "description": "of the machine's numbers"},
+    "machine": named(NUMBERS, "its numbers, in SI units, without those that vary"),
+    "blocks": whole("of cells that are proved together"),
+    **{name: _PROOF["properties"][name] for name in _SAME},
+}
+CERTIFY = either(
+    _PROOF,
+    record(
+        "with --verify", tuple(_VERIFIED),
+        file=words("with --verify, which prints what follows: the certificate"),
+        holds=flag("whether it does"), reason=words("why not; all else is then left out"), **_VERIFIED,
+    ),
+    text="a proof, or what is verified",
 )  # fmt: skip

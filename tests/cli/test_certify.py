@@ -2,13 +2,18 @@
 
 import json
 import math
+import subprocess
+import sys
 from decimal import Decimal
 from pathlib import Path
 
+import jsonschema
 import pytest
 from bikestab_cli.largest import told_speeds
+from bikestab_cli.schemas import SCHEMAS
 
 import bikestab.proving as proving
+from bikestab.certify import checker
 from tests.plot.test_proved import CONFIG
 from tests.test_proving import stopped_after
 
@@ -118,7 +123,16 @@ def test_mistakes(bikestab, options, words):
 def test_a_certificate_is_written_and_checked(bikestab, tmp_path):
     path = tmp_path / "proof.json"
     assert bikestab("certify", *BOX, "--V", "4.8:5.2", "--cells", "2", "-o", path)[0] == 0
-    assert "hold" in bikestab("certify", "--verify", path)[1]
+    code, out, _ = bikestab("certify", "--verify", path)
+    assert code == 0
+    for words in (
+        "1 block holds, ",
+        "g = 9.81,",
+        "V 4.8 ... 5.2\n",
+        "verdict: stable\n",
+        "stable    100.0000 %",
+    ):
+        assert words in out
     text = path.read_text("utf-8")
     path.write_text(text.replace((4.8).hex(), (2.0).hex()), "utf-8")
     code, out, err = bikestab("certify", "--verify", path)
@@ -257,3 +271,27 @@ def test_a_point_that_is_not_stable_is_told_with_its_eigenvalues(bikestab):
         assert f"{real:.4g}" in line
         assert imaginary == 0 or f"± {abs(imaginary):.4g} i" in line
     assert "twice as many --cells" in words
+
+
+def test_what_is_verified_is_what_was_proved(bikestab, tmp_path):
+    path = tmp_path / "proof.json"
+    options = ["--lam", "18deg", "--sigma", "0.07:0.085", "--V", "4.2:5.6", "--cells", "4"]
+    options += ["--bicycle", "meijaard2007", "--tolerance", "mB=85+-0.1", "-o", path, "--json"]
+    proved = json.loads(bikestab("certify", *options)[1].partition("\n")[2])
+    verified = json.loads(bikestab("certify", "--verify", path, "--json")[1])
+    jsonschema.validate(verified, SCHEMAS["certify"])
+    for name in ("box", "cells", "model", "verdict", "proved_stable", "proved_unstable", "undecided"):
+        assert verified[name] == proved[name]
+    assert 0 < verified["undecided"] < 1
+    assert verified["holds"]
+    assert (verified["machine"]["w"], "mB" in verified["machine"]) == (1.02, False)
+    path.write_text(path.read_text("utf-8").replace((1.02).hex(), (1.03).hex()), "utf-8")
+    code, out, err = bikestab("certify", "--verify", path, "--json")
+    jsonschema.validate(json.loads(out), SCHEMAS["certify"])
+    assert (code, json.loads(out)["holds"]) == (1, False)
+    assert json.loads(out)["reason"] in err
+    alone = subprocess.run(
+        [sys.executable, checker.__file__, path], capture_output=True, text=True, check=False
+    )
+    assert (alone.returncode, alone.stdout, alone.stderr.count("\n")) == (1, "", 1)
+    assert "something in it was changed" in alone.stderr
