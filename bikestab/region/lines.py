@@ -30,13 +30,15 @@ _PARTS = 8  # into which a change is narrowed down at a time
 class Line(NamedTuple):
     """Parallel lines in the plane of a family: x or y is None and runs, the other has shape (line,).
 
-    ``others`` are further parameters (line,) of their designs.
+    ``others`` are further parameters (line,) of their designs. Only stable intervals count that begin by the
+    speed ``begun_by`` [m/s].
     """
 
     family: Family
     x: ArrayLike | None
     y: ArrayLike | None
     others: Mapping[str, Floats] = MappingProxyType({})
+    begun_by: float = np.inf
 
     @property
     def fixed(self) -> Floats:
@@ -76,14 +78,16 @@ def stable_ranges(
     x: ArrayLike | None = None,
     y: ArrayLike | None = None,
     among: float | None = None,
+    begun_by: float = np.inf,
 ) -> list[list[tuple[float, float]]]:
     """For each line the ranges of the other parameter, within low … high, with a stable speed.
 
-    Give ``x`` for ranges of y, or ``y`` for ranges of x. The ends themselves are designs with a stable
-    speed, and designs that have none are next to them; or they are low and high. The design ``among``
-    them is looked at in any case.
+    Give ``x`` for ranges of y, or ``y`` for ranges of x. Only stable intervals that begin by the speed
+    ``begun_by`` [m/s] count: else a range may end where they begin beyond all sense. The ends themselves are
+    designs with a stable speed, and designs that have none are next to them; or they are low and high. The
+    design ``among`` them is looked at in any case.
     """
-    line = Line(family, x, y)
+    line = Line(family, x, y, begun_by=begun_by)
     found = sampled(line, low, high, [low, high] if among is None else [low, high, among])
     return _runs(found, found.structure > 0, len(line.fixed))
 
@@ -146,7 +150,7 @@ def sampled(line: Line, low: float, high: float, given: list[float]) -> Samples:
 def _seen(line: Line, which: NDArray[np.intp], where: Floats) -> Samples:
     """Designs at values on the lines of these numbers, in this order."""
     found = intervals_of(line.at(which, where))
-    kinds = found.lower.astype(np.int64) * len(KINDS) + found.upper
+    kinds = np.where(line.begun_by >= found.V1, found.lower.astype(np.int64) * len(KINDS) + found.upper, 0)
     structure = (kinds * len(KINDS) ** (2 * np.arange(kinds.shape[-1]))).sum(axis=-1)
     return Samples(which, where, structure, found.marginal[..., 0] == 0)
 

@@ -8,6 +8,7 @@ from typing import TypedDict
 import numpy as np
 
 from bikestab.family import Family
+from bikestab.limits import MOST_SPEED
 from bikestab.model import ExactTable, Floats
 from bikestab.region.lines import stable_ranges
 from bikestab.spectrum import growth_rate_of
@@ -45,11 +46,11 @@ def searched(lam: float, sigma: float) -> tuple[tuple[float, float], tuple[float
 def nearest_stable(family: Family, lam: float, sigma: float) -> Nearest:
     """What is nearest to stability around a design (λ [rad], σ [1]) that has no stable speed.
 
-    ``family`` is one over lam and sigma.
+    ``family`` is one over lam and sigma. Stable speeds that all are above MOST_SPEED are none here.
     """
     lam_range, sigma_range = searched(lam, sigma)
-    (sigmas,) = stable_ranges(family, *sigma_range, x=lam, among=sigma)
-    (lams,) = stable_ranges(family, *lam_range, y=sigma, among=lam)
+    (sigmas,) = stable_ranges(family, *sigma_range, x=lam, among=sigma, begun_by=MOST_SPEED)
+    (lams,) = stable_ranges(family, *lam_range, y=sigma, among=lam, begun_by=MOST_SPEED)
     close = min(lams, key=lambda ends: min(abs(end - lam) for end in ends), default=None)
     table = family.table(lam, sigma)
     V, growth = _slowest(lambda V: growth_rate_of(table, V))
@@ -72,7 +73,7 @@ def rounded(table: Callable[[float], Floats | ExactTable], end: float, way: int)
     for decimals in range(*_DECIMALS):
         scale = 10.0**decimals
         text = f"{way * np.ceil(way * end * scale) / scale + 0.0:.{decimals}f}"  # no minus before zero
-        if intervals_of(table(float(text))).number > 0:
+        if (intervals_of(table(float(text))).V1 <= MOST_SPEED).any():
             return text
     return repr(end)
 

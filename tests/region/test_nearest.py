@@ -5,6 +5,7 @@ import pytest
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
+from bikestab.limits import MOST_SPEED
 from bikestab.model import exact_table
 from bikestab.region import lines
 from bikestab.region.lines import Line, Samples
@@ -146,6 +147,24 @@ def test_what_rounding_decides_is_not_narrowed_down():
     assert lines._enclosed(Line(Family(MEIJAARD), [0.3], None), found, 1e-15) is found
     half = found._replace(clear=np.array([True, False, False]))
     assert len(lines._enclosed(Line(Family(MEIJAARD), [0.3], None), half, 1e-15).value) > 3
+
+
+@pytest.mark.parametrize(
+    ("preset", "values", "lam", "sigma"),
+    [
+        ("dikarev1981", {"k_delta_V": -40.0, "delta": 1.0}, 0.054, -0.155),
+        ("dikarev1981", {"k_phi_V": -43.5, "delta": 1.0}, -0.09, 0.108),
+    ],
+)
+def test_stable_speeds_begin_at_speeds_of_this_world(preset, values, lam, sigma):
+    """Next to the trail at which they go to infinity they would begin at 1e18 m/s."""
+    bicycle = Bicycle.preset(preset).replaced(values)
+    trail = nearest_stable(Family(bicycle), lam, sigma)["sigma_min"]
+    inside, outside = (intervals_of(exact_table(bicycle, lam, each)).V1[0] for each in (trail, trail - 1e-12))
+    assert MOST_SPEED * (1 - 1e-6) < inside <= MOST_SPEED < outside
+    assert growth_rate_of(exact_table(bicycle, lam, trail).value, MOST_SPEED) < 1e-3
+    text = rounded(lambda value: exact_table(bicycle, lam, value), trail, 1)
+    assert intervals_of(exact_table(bicycle, lam, float(text))).V1[0] < MOST_SPEED
 
 
 def test_rounded_ends_are_stable():
