@@ -37,7 +37,7 @@ def outcomes(config: ScanConfig | CheckConfig) -> list[Outcome]:
 def _outcome(config: ScanConfig | CheckConfig, expected: Expectation, key: _Key) -> Outcome:
     machine, lam, sigma = _designed(config.machine, expected, key)
     found = interval_records(intervals_of(exact_table(machine, lam, sigma, model=config.model)))
-    holds = any(_agrees(expected, interval) for interval in found) if expected.stable is None else not found
+    holds = not found if expected.stable else not all(missed(expected, interval) for interval in found)
     return Outcome(expected, design_record(lam, sigma, machine), found, holds)
 
 
@@ -60,9 +60,17 @@ def _designed(
     return machine, float(lam), float(sigma)
 
 
-def _agrees(expected: Expectation, found: Interval) -> bool:
+def missed(expected: Expectation, found: Interval) -> list[tuple[str, float, float]]:
+    """The ends of an interval that are not as expected: name, found, expected [m/s]; inf where unbounded."""
     V2 = math.inf if found["V2"] is None else found["V2"]
-    return all(
-        wanted is None or wanted == V or abs(wanted - V) <= allowance(expected.within, wanted)
-        for wanted, V in ((expected.V1, found["V1"]), (expected.V2, V2))
-    )
+    return [
+        (name, V, wanted)
+        for name, V, wanted in (("V1", found["V1"], expected.V1), ("V2", V2, expected.V2))
+        if wanted is not None and not _agree(wanted, V, expected.within)
+    ]
+
+
+def _agree(wanted: float, V: float, within: float | str) -> bool:
+    if math.isinf(wanted):  # of which per cent are without bound, too
+        return wanted == V
+    return abs(wanted - V) <= allowance(within, wanted)

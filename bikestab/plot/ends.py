@@ -27,7 +27,8 @@ _BEYOND = 1.25  # where what is unbounded ends in the picture, of the largest en
 def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "", name: str = "") -> Figure:
     """Machines by name with their designs' stable speeds; ``axis`` is the key of what varies, or empty.
 
-    ``label`` says what it is, if it is none of AXES, and ``name`` whose designs they all are.
+    Where answers have a ``spread``, as ``design.spread.plain`` gives it, lines are over nine tenths of the
+    ends. ``label`` says what it is, if it is none of AXES, and ``name`` whose designs they all are.
     Raises InputError for more machines than there are lines that differ.
     """
     lines = lines_for(len(machines))
@@ -39,9 +40,13 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "
     if axis:
         _over(ax, machines, axis, lines, top)
         ax.set_xlabel(label or AXES[axis], parse_math=False)
-        legend_below(figure, [entry("V₁", color="0.3"), entry("V₂", color="0.3", lw=0.9)])
     else:
         _bars(ax, machines, lines, top)
+    entries = [entry("V₁", color="0.3"), entry("V₂", color="0.3", lw=0.9)] if axis else []
+    if any("spread" in answer for _, answers in machines for answer in answers):
+        entries.append(entry("90 % of the machines", color="0.3", lw=1, marker="|" if not axis else "_"))
+    if entries:
+        legend_below(figure, entries)
     whose = f"{short(name)}: stable speeds" if name else "Stable speeds"
     set_title(ax, whose + ("" if any(V is not None for V in ends) else ": none"))
     return figure
@@ -63,6 +68,9 @@ def _over(
             ax.plot(x, [V if top > V else math.nan for V in V2], color=line.color, ls=line.ls, lw=1.0)
             if not x[-1] <= place[0]:
                 place = (x[-1], V1[-1])
+        for answer in answers:
+            for x, y in _nine_tenths(answer, answer[axis], 0.0, top):
+                ax.plot(y, x, "_-", color=line.color, lw=1, ms=7, clip_on=False)
         last.append(place)
     values = [answer[axis] for _, answers in machines for answer in answers]
     ax.set_xlim(min(values), max(values))
@@ -98,16 +106,37 @@ def _goes_on(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
 def _bars(ax: Axes, machines: Sequence[tuple[str, Answers]], lines: Sequence[Line], top: float) -> None:
     for row, ((_, answers), line) in enumerate(zip(machines, lines, strict=True)):
         intervals = answers[0]["intervals"]
-        for interval in intervals:
+        for k, interval in enumerate(intervals):
             V1, V2 = interval["V1"], interval["V2"]
             end = top if V2 is None else V2
+            side = -1 if k % 2 == 0 else 1  # above the bar, the next below
             ax.barh(row, end - V1, left=V1, height=0.5, color=line.color, alpha=0.45)
             words = f"{V1:.2f} {interval['lower']}"
             words += f" … {interval['upper']} {V2:.2f}" if V2 is not None else " … no upper limit"
-            ax.annotate(words, (V1, row), (0, 15), textcoords="offset points", fontsize=8, va="center")
+            far = 0.5 * top < V1
+            ax.annotate(
+                words, (end if far else V1, row + 0.25 * side), (0, -3 * side),
+                textcoords="offset points", fontsize=8, ha="right" if far else "left",
+                va="bottom" if side < 0 else "top",
+            )  # fmt: skip
+        for x, y in _nine_tenths(answers[0], row, 0.1, top):
+            ax.plot(x, y, "|-", color="0.2", lw=1, ms=7)
         if not intervals:
             ax.annotate("no stable speed", (0, row), (6, 0), textcoords="offset points", va="center")
     ax.set_yticks(range(len(machines)), [short(name) for name, _ in machines], parse_math=False)
     ax.set_ylim(len(machines) - 0.5, -0.7)
     ax.set_xlim(0, top)
     ax.set_xlabel("speed V [m/s]")
+
+
+def _nine_tenths(
+    answer: Mapping[str, Any], at: float, apart: float, top: float
+) -> list[tuple[list[float], list[float]]]:
+    """Where nine tenths of V1 and of V2 lie, cut at ``top``, and their places on both sides of ``at``."""
+    lines = []
+    for name, shift in (("V1", -apart), ("V2", apart)):
+        end = answer.get("spread", {}).get(name, {})
+        if end.get("low") is not None:
+            high = top if end["high"] is None else end["high"]
+            lines.append(([min(top, end["low"]), min(top, high)], [at + shift] * 2))
+    return lines

@@ -155,6 +155,33 @@ def _expected(outcome: Outcome) -> dict[str, Any]:
     return {**{name: V for name, V in ends.items() if V is not None}, "within": expected.within}
 
 
+def _problem(outcome: Outcome) -> str:
+    """What is wrong: the ends of the nearest interval that are not as expected; nothing where all is well."""
+    from bikestab.config.expectations import missed
+
+    expected, found = outcome.expected, outcome.found
+    if outcome.holds:
+        return ""
+    if expected.stable:
+        return "stable speeds were found, and none expected"
+    if not found:
+        return "no stable speed was found"
+    nearest = min(
+        (missed(expected, each) for each in found),
+        key=lambda ends: sum(abs(V - wanted) for _, V, wanted in ends),
+    )
+    within = _within(expected.within)
+    return "; ".join(
+        f"{name} is {_text(V)}, not {_text(wanted)} within {within}{_apart(V - wanted, wanted)}"
+        for name, V, wanted in nearest
+    )
+
+
+def _apart(difference: float, wanted: float) -> str:
+    share = f", {difference / wanted:+.2%}" if wanted else ""
+    return f": {difference:+.4g} m/s{share}" if math.isfinite(difference) else ""
+
+
 def _suite(checked: Checked) -> Suite:
     from bikestab.export.junit import Case, Suite
 
@@ -165,7 +192,6 @@ def _suite(checked: Checked) -> Suite:
         _, lam, sigma, wanted, found, _ = (cell.replace("\n", " ") for cell in _row("", outcome))
         design = f"lam {lam.split()[0]}, sigma {sigma.split()[0]}"
         design += "".join(f", {name} {x:g}" for name, x in (outcome.expected.model_extra or {}).items())
-        problem = "" if outcome.holds else "another stable interval, or none, was found"
         text = f"expected [m/s]: {wanted}\nfound [m/s]: {found}"
-        cases.append(Case(f"expect[{number}]: {design}", problem, text))
+        cases.append(Case(f"expect[{number}]: {design}", _problem(outcome), text))
     return Suite(checked.name, cases)

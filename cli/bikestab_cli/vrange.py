@@ -103,7 +103,8 @@ def command(
         from bikestab.plot.ends import draw_ends
         from bikestab.plot.files import save
 
-        save(draw_ends([(each.machine.words, each.answers) for each in found], axis), Path(output))
+        drawn = [(each.machine.words, with_spreads(each.answers, each.spreads)) for each in found]
+        save(draw_ends(drawn, axis), Path(output))
         files["picture"] = output
     if as_json:
         print_json(

@@ -38,7 +38,7 @@ def show_over(
     ]
     files = {}
     if output:
-        _draw(machines, points, over, output)
+        _draw(machines, points, known, over, output)
         files["picture"] = output
     if as_json:
         answers = [[{"over": point, **answer} for point, answer in each] for each in points]
@@ -78,8 +78,9 @@ def _spreads(
 
 
 def _draw(
-    machines: Sequence[Chosen], points: Sequence[Points], over: Mapping[str, list[float]], output: str
-) -> None:
+    machines: Sequence[Chosen], points: Sequence[Points], known: Sequence[list[Spread]],
+    over: Mapping[str, list[float]], output: str,
+) -> None:  # fmt: skip
     """Over the parameter with the most values, a curve for each value of the other one."""
     from bikestab.plot.ends import AXES, draw_ends
     from bikestab.plot.files import save
@@ -88,8 +89,9 @@ def _draw(
     along = max(over, key=lambda name: len(over[name]))
     axis = {"head_angle": "head_angle_deg"}.get(along, along) if len(over[along]) > 1 else ""
     curves: dict[str, list[dict[str, Any]]] = {}
-    for machine, each in zip(machines, points, strict=True):
-        for point, answer in each:
+    for machine, each, spreads_ in zip(machines, points, known, strict=True):
+        answers = with_spreads([answer for _, answer in each], spreads_)
+        for (point, _), answer in zip(each, answers, strict=True):
             others = [parameter_of(machine.bicycle, name) for name in point if name != along or not axis]
             values = [f"{p.name} = {point[p.name]:.4g} {p.unit}".removesuffix(" 1") for p in others]
             whose = [machine.words] if len(machines) > 1 or not values else []

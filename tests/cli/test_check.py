@@ -109,6 +109,7 @@ def test_junit(bikestab):
     assert [[case.is_passed for case in suite] for suite in suites] == [[True, True], [False], [False]]
     (failure,) = next(iter(suites[1])).result
     assert isinstance(failure, junitparser.Failure)
+    assert failure.message == "V1 is 4.292382536341, not 5 within 0.001: -0.7076 m/s, -14.15%"
     (error,) = next(iter(suites[2])).result
     assert isinstance(error, junitparser.Error)
     assert failure.text == "expected [m/s]: 5 any within 0.001\nfound [m/s]: 4.292382536341 6.024262015388"
@@ -184,3 +185,18 @@ def test_other_parameters_are_told_of(bikestab):
     # what vrange says of the same machine
     _, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=100", "--json")
     assert json.loads(out)["results"][0]["intervals"] == first["intervals"]
+
+
+@pytest.mark.parametrize(
+    ("entry", "message"),
+    [
+        ("V1: 4.3, V2: unbounded, within: 1%", "V2 is 6.024262015388, not unbounded within 1%"),
+        ("stable: never", "stable speeds were found, and none expected"),
+        ("lam: 0.1, sigma: 0.02, V1: 5", "no stable speed was found"),
+    ],
+)
+def test_what_is_wrong_is_said(bikestab, entry, message):
+    write("a.yaml", entry)
+    assert bikestab("check", "a.yaml", "--junit", "a.xml")[0] == 1
+    (suite,) = junitparser.JUnitXml.fromfile("a.xml")
+    assert [failure.message for case in suite for failure in case.result] == [message]

@@ -14,6 +14,7 @@ from bikestab_cli.main import main
 
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
+from bikestab.plot.ends import draw_ends
 from bikestab.presets import preset_text
 from bikestab.region.nearest import nearest_stable
 
@@ -556,3 +557,20 @@ def test_a_picture_over_parameters_names_the_machine(bikestab):
     args = ("vrange", "--bicycle", "meijaard2007", "--over", "mB=60:110:3", "--over", "offset=0:60mm:2")
     assert bikestab(*args, "-o", "a.svg")[0] == 0
     assert "<!-- meijaard2007: stable speeds -->" in Path("a.svg").read_text(encoding="utf-8")
+
+
+def test_a_picture_has_the_deviations(bikestab):
+    args = ("vrange", "--bicycle", "meijaard2007", "--over", "mB=60:110:3", "--sd", "trail=5mm")
+    known = json.loads(bikestab(*args, "--json")[1])["results"]
+    drawn = draw_ends([("own", [{**each, "mB": each["over"]["mB"]} for each in known])], "mB", "mB").axes[0]
+    for which in (known, [known[0]]):
+        if which is not known:
+            drawn = draw_ends([("own", which)], "").axes[0]
+        lines = [
+            sorted(set(xy.ravel())) for xy in (line.get_xydata() for line in drawn.lines) if len(xy) == 2
+        ]
+        for each in which:
+            for end in (each["spread"]["V1"], each["spread"]["V2"]):
+                assert any({end["low"], end["high"]} <= set(line) for line in lines)
+    assert bikestab(*args, "-o", "a.svg")[0] == 0
+    assert "<!-- 90 % of the machines -->" in Path("a.svg").read_text(encoding="utf-8")

@@ -7,6 +7,8 @@ import { plotly } from "./library.mjs";
 /** @typedef {{ lam: number, sigma: number, V: number, intervals: Interval[] }} Chosen */
 
 export const CONFIG = { displayModeBar: false, responsive: true, scrollZoom: false, doubleClick: false };
+// the upper part of cividis, as in the pictures of designs: dark is narrow, yellow is wide
+const WIDTH = [[0, "#4f576c"], [0.125, "#646770"], [0.25, "#777776"], [0.375, "#8c8878"], [0.5, "#a19975"], [0.625, "#b9ab6d"], [0.75, "#d0be62"], [0.875, "#e9d34e"], [1, "#fee838"]];
 const PRINTED = 334; // CSS pixels that a chart has on a sheet of A4
 
 /** @param {string} name */
@@ -53,7 +55,7 @@ export async function drawPlane(at, shown, chosen) {
     : [];
   await react(at, [
     { type: "scatter", mode: "markers", name: "chosen", x: [chosen.lam], y: [chosen.sigma], marker: { symbol: "cross-thin", size: 22, color: ink, line: { width: 3, color: ink } }, hoverinfo: "skip" },
-    { type: "heatmap", x: lam, y: sigma, z, colorscale: "Cividis", reversescale: true, zmin: 0, hovertemplate: "λ %{x:.4f} rad, σ %{y:.4f}: %{z:.2f} m/s stable<extra></extra>", colorbar: { title: { text: "stable [m/s]", side: "right" }, thickness: 12 } },
+    { type: "heatmap", x: lam, y: sigma, z, colorscale: WIDTH, zmin: 0, hovertemplate: "λ %{x:.4f} rad, σ %{y:.4f}: %{z:.2f} m/s stable<extra></extra>", colorbar: { title: { text: "stable [m/s]", side: "right" }, thickness: 12 } },
     ...curves, ...straight, ...own,
   ], layout({
     legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, font: { size: 11 } },

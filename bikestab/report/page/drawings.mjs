@@ -24,16 +24,16 @@ export function drawSide(svg, machine, lam, sigma) {
   const { c, R1, R2, parts } = machine;
   const angle = (90 - (lam * 180) / Math.PI).toFixed(1);
   const high = 1.15 * Math.max(2 * R1, 2 * R2, ...parts.map((part) => part.h));
-  const low = -0.26 * high;
   const left = -Math.max(R1, 0.1 * c) - 0.05 * c;
   const right = Math.max(c + R2, c + trail) + 0.05 * c;
-  svg.setAttribute("viewBox", `${left} ${-high} ${right - left} ${high - low}`);
-  const thin = 0.004 * (right - left);
+  const [thin, letter] = [0.004 * (right - left), 0.042 * (right - left)];
+  const below = 5 * thin + 1.3 * letter; // the first line of text, free of the lines above it
+  svg.setAttribute("viewBox", `${left} ${-high} ${right - left} ${high + below + 1.8 * letter}`);
   const foot = c + trail;
   const top = [foot - Math.tan(lam) * high, high];
   // the front axle's foot on the steering axis
   const on = [c - offset * Math.cos(lam), R2 - offset * Math.sin(lam)];
-  const text = { "font-size": 0.042 * (right - left), "text-anchor": "middle" };
+  const text = { "font-size": letter, "text-anchor": "middle" };
   const head = [top[0] + 0.22 * (foot - top[0]), 0.78 * high];
   svg.innerHTML = [
     shape("line", { x1: left, x2: right, y1: 0, y2: 0, stroke: "currentColor", "stroke-width": thin }),
@@ -45,10 +45,10 @@ export function drawSide(svg, machine, lam, sigma) {
     ...parts.map((part, i) => shape("circle", { cx: part.l, cy: -part.h, r: 6 * thin, fill: i ? FRONT : REAR, stroke: "currentColor", "stroke-width": thin })
       + shape("text", { ...text, "text-anchor": "start", x: part.l + 9 * thin, y: -part.h + (i ? 4 : -4) * thin }, `${part.m.toFixed(1)} kg`)),
     shape("line", { x1: c, x2: foot, y1: 5 * thin, y2: 5 * thin, stroke: "currentColor", "stroke-width": 3 * thin }),
-    shape("text", { ...text, x: Math.min((c + foot) / 2, right - 0.2 * c), y: -low - 0.145 * high }, `trail ${mm(trail)}`),
+    shape("text", { ...text, x: Math.min((c + foot) / 2, right - 0.2 * c), y: below }, `trail ${mm(trail)}`),
     shape("line", { x1: 0, x2: c, y1: 5 * thin, y2: 5 * thin, stroke: "currentColor", "stroke-width": thin }),
-    shape("text", { ...text, x: 0.36 * c, y: -low - 0.145 * high }, `wheelbase ${mm(c)}`),
-    shape("text", { ...text, x: 0.5 * (left + right), y: -low - 0.045 * high }, `head angle ${angle}°, fork offset ${mm(offset)}`),
+    shape("text", { ...text, x: 0.36 * c, y: below }, `wheelbase ${mm(c)}`),
+    shape("text", { ...text, x: 0.5 * (left + right), y: below + 1.3 * letter }, `head angle ${angle}°, fork offset ${mm(offset)}`),
   ].join("");
   svg.setAttribute("aria-label", `The machine from its side: head angle ${angle} degrees, trail ${mm(trail)}, fork offset ${mm(offset)}, wheelbase ${mm(c)}.`);
 }
