@@ -48,7 +48,7 @@ def prove_in_parts(
     After ``most_blocks`` were looked at, each part having its share, what is open stays undecided. Finished
     parts are kept in the file ``keep`` until all are done; from there the same proof goes on if it was
     stopped. Raises InputError for too many processes and where that file is another's or cannot be written,
-    ScanError where a process dies.
+    ScanError where a process dies or the disk is full.
     """
     if jobs:
         check_number(jobs)
@@ -76,14 +76,21 @@ def prove_in_parts(
 
 @contextmanager
 def _told_of(spool: Spool | None) -> Iterator[None]:
-    """Where a proof ends too early, keep nothing empty, and say of lost processes what is kept."""
+    """Where a proof ends too early, keep nothing empty, and say what is kept."""
     try:
         yield
     except BaseException as error:
-        if spool and not spool.notes:
+        if not spool:
+            raise
+        if not spool.notes:
             spool.remove()
-        if spool and isinstance(error, WorkersLost):
-            raise ScanError(f"{error}\n{KEPT if spool.notes else NOT_KEPT}") from None
+        if isinstance(error, KeyboardInterrupt):
+            raise KeyboardInterrupt(KEPT if spool.notes else "") from None
+        if isinstance(error, (WorkersLost, OSError)):
+            problem = (
+                str(error) if isinstance(error, WorkersLost) else f"{spool.path}: {error.strerror or error}"
+            )
+            raise ScanError(f"{problem}\n{KEPT if spool.notes else NOT_KEPT}") from None
         raise
 
 

@@ -1,5 +1,6 @@
 """Proofs in parts: the same by one process or several, stopped and gone on with, or at a limit of work."""
 
+import errno
 from contextlib import contextmanager
 
 import numpy as np
@@ -86,22 +87,37 @@ def test_no_process_starts_without_a_part_for_it(box, monkeypatch):
         prove_in_parts(box, jobs=10**4)
 
 
+@pytest.mark.parametrize(
+    ("error", "problem"),
+    [
+        (WorkersLost("a worker process died"), "a worker process died"),
+        (OSError(errno.ENOSPC, "the disk is full"), "FILE: the disk is full"),
+    ],
+)
 @pytest.mark.parametrize(("finished", "words"), [(1, KEPT), (0, NOT_KEPT)])
-def test_lost_processes_are_told_of_with_what_is_kept(box, tmp_path, monkeypatch, finished, words):
+def test_what_is_kept_is_told(box, tmp_path, monkeypatch, finished, words, error, problem):
     keep = tmp_path / "proof.json.parts"
 
     def lost(todo, jobs):
         for number, part in todo[:finished]:
             yield number, proving.decide(part)
-        raise WorkersLost("a worker process died")
+        raise error
 
     monkeypatch.setattr(proving, "_finished", lost)
     with pytest.raises(ScanError) as told:
         prove_in_parts(box, keep=keep)
-    assert str(told.value) == f"a worker process died\n{words}"
+    assert str(told.value) == f"{problem.replace('FILE', str(keep))}\n{words}"
     assert keep.exists() == bool(finished)
-    with pytest.raises(WorkersLost):
+    with pytest.raises(type(error)):
         prove_in_parts(box)  # without a file nothing is said of it
+
+
+def test_what_is_kept_is_told_where_somebody_stops_it(box, tmp_path):
+    keep = tmp_path / "proof.json.parts"
+    for number, words in ((0, ""), (2, KEPT)):
+        with stopped_after(number), pytest.raises(KeyboardInterrupt) as told:
+            prove_in_parts(box, jobs=1, keep=keep)
+        assert (str(told.value), keep.exists()) == (words, bool(number))
 
 
 def test_parts_of_another_version_are_dropped(box, tmp_path, monkeypatch):

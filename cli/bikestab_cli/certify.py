@@ -26,7 +26,7 @@ from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.progress import progress
 from bikestab_cli.tolerances import DESIGN, tolerances_of, with_design
 
-from bikestab.errors import KEPT, InputError
+from bikestab.errors import InputError
 from bikestab.gains import GAINS
 from bikestab.units import DAMPING
 
@@ -164,14 +164,11 @@ def _proof(box: Box, jobs: int | None, work: int | None, certificate: str | None
     if certificate and not to_stdout(certificate) and not Path(certificate).is_char_device():
         keep = Path(f"{certificate}.parts")
     cells = prod(len(edges) - 1 for edges in box.edges)
-    try:
-        with progress("certify", quiet, "cells") as show:
-            return prove_in_parts(
-                box, jobs=jobs, most_blocks=work, keep=keep,
-                progress=lambda share: show(int(cells * share), cells),
-            )  # fmt: skip
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"certify: {KEPT}" if keep and keep.exists() else "") from None
+    with progress("certify", quiet, "cells") as show:
+        return prove_in_parts(
+            box, jobs=jobs, most_blocks=work, keep=keep,
+            progress=lambda share: show(int(cells * share), cells),
+        )  # fmt: skip
 
 
 def _edges(name: str, ends: Ends, cells: int) -> Any:
