@@ -42,7 +42,7 @@ class Raster(NamedTuple):
 def rasterize(corners: Floats, colours: Floats) -> Raster:
     """Triangles (n, 3 corners, 3) with x, y and the depth in the picture, each in a colour RGBA (n, 4)."""
     low, high = corners[..., :2].min(axis=(0, 1)), corners[..., :2].max(axis=(0, 1))
-    size = float((high - low).max()) / _SIDE
+    size = float((high - low).max()) / _SIDE or 1.0  # all in one point
     columns, rows = np.ceil((high - low) / size).astype(int) + 1
     pixel, triangle, depth = _fragments(corners, low, size, int(columns))
     order = np.argsort(-depth)  # the nearest is written last
@@ -77,14 +77,14 @@ def _fragments(
     at = (corners[..., :2] - low) / size - 0.5
     first = np.ceil(at.min(axis=1)).astype(int)
     span = np.maximum(np.floor(at.max(axis=1)).astype(int) - first + 1, 0)
-    number = span.prod(axis=1)
+    (ax, ay), (bx, by), (cx, cy) = (at[:, i].T for i in range(3))
+    area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
+    number = np.where(area == 0, 0, span.prod(axis=1))  # none of those seen edge-on
     triangle = np.repeat(np.arange(len(at)), number)
     place = np.arange(len(triangle)) - np.repeat(np.cumsum(number) - number, number)
     width = span[triangle, 0]
     column = first[triangle, 0] + place % width
     row = first[triangle, 1] + place // width
-    (ax, ay), (bx, by), (cx, cy) = (at[:, i].T for i in range(3))
-    area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
     with np.errstate(divide="ignore", invalid="ignore"):
         slopes = np.stack([by - cy, cx - bx, cy - ay, ax - cx]) / area
     x, y = column - cx[triangle], row - cy[triangle]

@@ -59,3 +59,17 @@ def test_pixels_are_those_matplotlib_finds_inside():
     plane = np.linalg.solve(np.column_stack([corners[0, :, :2], np.ones(3)]), corners[0, :, 2])
     both = inside & np.isfinite(raster.depth)
     assert raster.depth[both] == pytest.approx((points @ plane[:2] + plane[2])[both], abs=1e-9)
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_is_seen_edge_on_is_not_there():
+    """A triangle whose corners are in one line of the picture covers no pixel, one point none at all."""
+    edge_on = [[[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.5, 0.5, -1.0]]]
+    alone, _ = middle((square(1.0), RED))
+    both, _ = middle((square(1.0), RED), (edge_on, CLEAR_BLUE))
+    assert np.array_equal(both.pixels, alone.pixels)
+    assert np.array_equal(both.depth, alone.depth)
+    point = rasterize(np.ones((2, 3, 3)), np.array([RED, RED]))
+    assert not point.pixels.any()
+    assert np.isinf(point.depth).all()
+    assert not point.hides(np.ones(1), np.ones(1), np.ones(1)).any()
