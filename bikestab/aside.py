@@ -2,7 +2,7 @@
 
 A copy of this process has all that the task needs, and costs some milliseconds. It is made where there is a
 core for it, and only beside no other thread, whose locks it would hold for ever. Where it is ended by
-something else, its task is done here.
+something else, its task is done here; where this process is ended, so is that one.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from functools import partial
 from typing import Generic, TypeVar
 
 T = TypeVar("T")
+_PR_SET_PDEATHSIG = 1  # of linux/prctl.h
 
 
 def cores() -> int:
@@ -65,10 +66,11 @@ class _Second(Generic[T]):
     def __init__(self, task: Callable[[], T]) -> None:
         self.task = task
         self.pipe, theirs = os.pipe()
+        first = os.getpid()
         self.child = os.fork()
         if not self.child:
             os.close(self.pipe)  # where the first process is killed, nobody reads, and writing ends
-            _answer(task, theirs)
+            _answer(task, theirs, first)
         os.close(theirs)
 
     def result(self) -> T:
@@ -86,10 +88,11 @@ class _Second(Generic[T]):
             os.waitpid(self.child, 0)
 
 
-def _answer(task: Callable[[], T], pipe: int) -> None:
+def _answer(task: Callable[[], T], pipe: int, first: int) -> None:
     """What the second process does: nothing of the first one's is closed, flushed or told of twice."""
     try:
         faulthandler.disable()
+        _end_with(first)
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         nowhere = os.open(os.devnull, os.O_RDWR)
         for stream in (0, 1, 2):
@@ -98,4 +101,14 @@ def _answer(task: Callable[[], T], pipe: int) -> None:
         while answer:
             answer = answer[os.write(pipe, answer) :]
     finally:
+        os._exit(0)
+
+
+def _end_with(first: int) -> None:
+    """Let the first process's end, however it comes, be that of this one, in the middle of its task."""
+    with suppress(ImportError, OSError, AttributeError):  # without it the task is done, for nobody
+        from ctypes import CDLL
+
+        CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != first:  # it had ended before
         os._exit(0)
