@@ -69,7 +69,7 @@ _ROW = record(
     meaning=words("in words"),
     notation=flag("whether it is one of the bicycle's notation"), dV1=maybe("dV1/dp"), dV2=maybe("dV2/dp"),
     elasticity_V1=maybe("per cent for one per cent"), elasticity_V2=maybe("the same for V2"),
-    change=maybe("by how much it alone must change for V1 to fall by 0.1 m/s; null: it cannot"),
+    change=maybe("by how much it alone must change for V1 to fall by 0.1 m/s; null: none found, or g"),
 )  # fmt: skip
 _TRIED = record(
     "the widest interval with other values", what=words("in words"), values=named(NUMBERS, "the values"),

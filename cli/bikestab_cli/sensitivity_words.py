@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -33,9 +34,10 @@ def told(found: Sensitivity, first: FirstSigma, record: Mapping[str, Any], chang
     for interval in record["intervals"]:
         rows = interval["parameters"]
         parts.append(f"stable from {_ends(interval)}")
-        parts.append(_table([row for row in rows if row["notation"]], "parameter"))
-        parts.append(_table([row for row in rows if not row["notation"]], "front"))
-        parts.append(_words(rows))
+        doubts = _doubts(found, rows)
+        parts.append(_table([row for row in rows if row["notation"]], "parameter", doubts))
+        parts.append(_table([row for row in rows if not row["notation"]], "front", doubts))
+        parts.append(_words(rows, doubts))
     if not record["intervals"]:
         parts.append("no stable speed, and so no end of one to move; 'bikestab vrange' says what is nearest")
     parts += [line(found, growth_moved(found)), line(found, sigma_moved(first))]
@@ -64,13 +66,31 @@ def _ends(interval: Interval) -> str:
     return f"{interval['V1']:.6f} m/s ({interval['lower']}) {above}"
 
 
-def _table(rows: Sequence[Row], first: str) -> str:
+def _doubts(found: Sensitivity, rows: Sequence[Row]) -> dict[str, str]:
+    """What is doubtful of the machine with a parameter changed by its ``change``, where it is not without."""
+    own = {_without_numbers(text) for text in found.bicycle.warnings}
+    doubts = {}
+    for row in rows:
+        if row["change"] and row["notation"] and row["name"] not in ("lam", "sigma"):
+            other = found.bicycle.replaced({row["name"]: row["value"] + row["change"]})
+            new = [text for text in other.warnings if _without_numbers(text) not in own]
+            if new:
+                doubts[row["name"]] = "; ".join(new)
+    return doubts
+
+
+def _without_numbers(text: str) -> str:
+    return re.sub(r"\d[\d.e+-]*", "", text)
+
+
+def _table(rows: Sequence[Row], first: str, doubts: Mapping[str, str]) -> str:
     head = [first, "value", "unit", "dV1/dp", "%/%", "dV2/dp", "%/%", "V1 -0.1"]
     cells = [
         [
             row["name"], f"{row['value'] * size:.5g}", unit,
             _number(row["dV1"], 1 / size), _share(row["elasticity_V1"]),
-            _number(row["dV2"], 1 / size), _share(row["elasticity_V2"]), _number(row["change"], size, "+.3g"),
+            _number(row["dV2"], 1 / size), _share(row["elasticity_V2"]),
+            _number(row["change"], size, "+.3g") + ("*" if row["name"] in doubts else " " if doubts else ""),
         ]
         for row in rows
         for unit, size in [BUILDERS.get(row["unit"], (row["unit"], 1.0))]
@@ -86,13 +106,18 @@ def _share(value: float | None) -> str:
     return "-" if value is None else f"{value:z.3f}"
 
 
-def _words(rows: Sequence[Row]) -> str:
+def _words(rows: Sequence[Row], doubts: Mapping[str, str]) -> str:
     """What the last column is, and which parameters widen the interval most."""
+    change = (
+        "V1 -0.1: by how much it alone must change for V1 to fall by 0.1 m/s; -: none does that was tried, "
+    )
+    change += "up to its own value; not tried for g, which nobody can change"
     lines = [
         "%/%: per cent of the speed for one per cent of the parameter",
-        "V1 -0.1: by how much it alone must change for V1 to fall by 0.1 m/s; -: no change does",
+        change,
+        *(f"* {name}: {text}" for name, text in doubts.items()),
     ]
-    if least := _least(rows):
+    if least := _least(rows, doubts):
         lines.append(f"to lower V1 by 0.1 m/s these change least, as a share of themselves: {least}")
     unmoved = [row["name"] for row in rows if row["dV1"] == 0 and row["dV2"] in (0, None)]
     if unmoved:
@@ -105,14 +130,15 @@ def _words(rows: Sequence[Row]) -> str:
     return "\n".join(lines)
 
 
-def _least(rows: Sequence[Row]) -> str:
+def _least(rows: Sequence[Row], doubts: Mapping[str, str]) -> str:
     """The parameters of which the smallest changes, as shares of their values, lower V1."""
     found = []
     for row in rows:
         if row["change"] and row["value"] and row["notation"]:
             unit, size = BUILDERS.get(row["unit"], (row["unit"], 1.0))
             share = abs(row["change"] / row["value"])
-            found.append((share, f"{row['name']} {row['change'] * size:+.3g} {unit} ({share:.1%})"))
+            mark = "*" if row["name"] in doubts else ""
+            found.append((share, f"{row['name']} {row['change'] * size:+.3g}{mark} {unit} ({share:.1%})"))
     return ", ".join(text for _, text in sorted(found)[:_LEAST])
 
 

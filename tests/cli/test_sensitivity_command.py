@@ -29,6 +29,11 @@ def test_the_table_of_the_benchmark(told):
     assert body == ["mB", "85", "kg", "0.01513", "0.300", "0.02541", "0.359", "-6.53"]
     assert "these do not move the ends: IByy, IHyy" in out
     assert "wider when these decrease: w, IFyy" in out
+    words = " ".join(out.split())
+    assert "not tried for g, which nobody can change" in words
+    (wheel,) = (row for row in rows if row[:1] == ["IFyy"])
+    assert wheel[-1] == "+0.0179*"
+    assert "* IFyy: no rigid front wheel has IFyy > 2 IFxx: 0.297918 > 0.281 kg m²" in words
 
 
 def test_json_and_csv_have_full_precision(told):
