@@ -77,6 +77,12 @@ def decay(wanted: Asked, table: Floats, found: Counted) -> Merit:
     return Merit(judged(wanted, table, found)[1], np.logical_or(found.any, wanted.stable is None))
 
 
+def decay_finely(wanted: Asked, table: Floats, found: Counted) -> Merit:
+    """As ``decay``, with the speed sampled as finely as for what is told of designs."""
+    rate = judged(wanted, table, found, rounds=_FINEST)[1]
+    return Merit(rate, np.logical_or(found.any, wanted.stable is None))
+
+
 def width_if_decaying(wanted: Asked, table: Floats, found: Counted) -> Merit:
     """As ``width``, of designs that are stable at the judged speeds."""
     widest, growth = found.width.max(axis=-1), judged(wanted, table, found)[1]

@@ -13,8 +13,19 @@ from scipy.optimize import differential_evolution
 from bikestab.aside import meanwhile
 from bikestab.bicycle import Bicycle
 from bikestab.design.ball import Ball, Robust, most_robust
-from bikestab.design.criteria import WORSE, Criterion, assessed, counted, decay, judged, lowest, width
-from bikestab.design.optimum import finite
+from bikestab.design.criteria import (
+    WORSE,
+    Criterion,
+    assessed,
+    counted,
+    decay,
+    decay_finely,
+    judged,
+    lowest,
+    width,
+)
+from bikestab.design.optimum import SHRINKS, VANISHING, finite
+from bikestab.design.polish import better, or_inf, polished
 from bikestab.draws import evenly
 from bikestab.errors import InputError
 from bikestab.limits import check_speed
@@ -149,7 +160,7 @@ def best_free(free: Free, deviations: Mapping[str, float] | None = None) -> Free
     InputError, with the key ``sd``, for deviations without speeds, and for what the bicycle does not have.
     """
 
-    def searched() -> list[tuple[Floats, float]]:
+    def optimized() -> list[tuple[Floats, float]]:
         return [best_of(free, criterion) for criterion in (width, lowest, decay)]
 
     robust = None
@@ -158,15 +169,20 @@ def best_free(free: Free, deviations: Mapping[str, float] | None = None) -> Free
             hint = "for example stable from 4.5 to 5.5 m/s"
             raise InputError("robust designs need speeds to be stable at", key=("stable",), hint=hint)
         ball = Ball(free.bicycle, free.model, free.stable, free.ends, deviations)
-        with meanwhile(searched) as others:
+        with meanwhile(optimized) as others:
             if found := most_robust(ball, free.first):
                 robust = _robust_design(free, found)
             optima = others()
     else:
-        optima = searched()
+        optima = optimized()
     widest, low, fast = (None if value >= WORSE else free_design(free, x) for x, value in optima)
     own = None if free.own is None else free_design(free, free.own)
-    return FreeBest(own, widest, low, fast, robust)
+    best = [own, widest, low, fast, robust and robust["design"]]
+    return FreeBest(
+        own, better(widest, best, lambda design: -design["width"]),
+        better(low, best, lambda design: or_inf(design["V1"])),
+        better(fast, best, lambda design: or_inf(design["growth_rate"])), robust,
+    )  # fmt: skip
 
 
 def best_of(free: Free, criterion: Criterion) -> tuple[Floats, float]:
@@ -188,17 +204,12 @@ def best_of(free: Free, criterion: Criterion) -> tuple[Floats, float]:
         updating="deferred", polish=False, rng=random, maxiter=_ROUNDS, tol=0, atol=1e-9,
         mutation=(0.4, 0.9), recombination=0.9,
     )  # fmt: skip
-    x, value, size = free.within(end.x), float(end.fun), 0.01
-    while size > 1e-10:
-        away = random.standard_normal((_POPULATION, len(low))) * random.choice([0.1, 1, 1], (_POPULATION, 1))
-        points = free.within(x[:, np.newaxis] + size * (high - low)[:, np.newaxis] * away.T)
-        values = cost(points)
-        k = int(np.argmin(values))
-        if values[k] < value:
-            x, value = points[:, k], float(values[k])
-        else:
-            size *= 0.5
-    return x, value
+    exact = decay_finely if criterion is decay else criterion
+
+    def fine(x: Floats) -> Floats:
+        return assessed(free, [exact], x)[0]
+
+    return polished(cost, fine, free.box, free.within(end.x), random)
 
 
 def free_design(free: Free, x: Floats) -> FreeDesign:
@@ -210,7 +221,7 @@ def free_design(free: Free, x: Floats) -> FreeDesign:
     k = int(np.argmax(np.where(found.counts if some else wide > 0, wide, -1)[0]))
     V1, V2, lower, upper = (values[0, k] for values in found.intervals)
     low, high = free.box
-    at = _place(free, x) if some else "not stable as asked"
+    at = _place(free, x, vanishes=bool(V2 - V1 < VANISHING)) if some else "not stable as asked"
     at = at if np.all((low <= x) & (x <= high)) else f"outside of what is searched{'' if some else f', {at}'}"
     machine, lam, sigma = varied(free.bicycle, dict(zip(free.ends, x.tolist(), strict=True)))
     return {
@@ -222,10 +233,11 @@ def free_design(free: Free, x: Floats) -> FreeDesign:
     }  # fmt: skip
 
 
-def _place(free: Free, x: Floats) -> str:
+def _place(free: Free, x: Floats, *, vanishes: bool) -> str:
     low, high = free.box
     at = np.minimum(np.abs(x - low), np.abs(x - high)) <= 1e-6 * (high - low)
     limits = [f"limit of {name}" for name, there in zip(free.ends, at, strict=True) if there]
+    limits += ["edge of the stable region" + SHRINKS] if vanishes else []
     return ", ".join(limits) or "interior"
 
 

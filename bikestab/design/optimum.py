@@ -15,7 +15,8 @@ from bikestab.model import Floats
 from bikestab.records import Design, design_record
 from bikestab.speeds import KINDS
 
-_VANISHING = 0.01  # m/s: an optimum at the rim whose interval is narrower has an interval only in name
+SHRINKS = ", where the interval shrinks to a point"
+VANISHING = 0.01  # m/s: an optimum at the rim whose interval is narrower has an interval only in name
 _BESIDE = 1e-4  # share of the box's sides at which the neighbours of an optimum are looked at
 _JUMP = 1e-3  # share of its value by which an optimum at a jump is better than a close neighbour
 _TOUCH = 1e-3  # m/s
@@ -122,8 +123,8 @@ def _beside(wanted: Wanted, criterion: Criterion, x: Floats, radii: Floats) -> f
 def _rim(wanted: Wanted, x: Floats) -> str:
     """The words for an optimum beside which nothing is stable."""
     found = counted(wanted, wanted.table(x[:, np.newaxis]))
-    vanishes = found.width[found.counts].min(initial=np.inf) < _VANISHING
-    return "edge of the stable region" + (", where the interval shrinks to a point" if vanishes else "")
+    vanishes = found.width[found.counts].min(initial=np.inf) < VANISHING
+    return "edge of the stable region" + (SHRINKS if vanishes else "")
 
 
 def _touches(wanted: Wanted, x: Floats) -> bool:

@@ -18,6 +18,12 @@ if TYPE_CHECKING:
     from bikestab.design.optimum import JudgedDesign
 
 
+VANISHES = (
+    "the lowest V1 is a limit: towards that design V1 falls, but the interval vanishes; "
+    "ask for --stable A:B to get one that can be used"
+)
+
+
 def told(wanted: Wanted, best: Best, changes: str) -> str:
     """All that was found, in the order of the questions: what was searched, the optima, the front, notes."""
     changed = f" ({changes})" if changes else ""
@@ -149,10 +155,7 @@ def _notes(wanted: Wanted, designs: list[JudgedDesign], best: Best) -> list[str]
         notes.append(_cut_note(wanted))
     lowest = best.lowest_V1
     if lowest and "shrinks" in lowest["at"]:
-        notes.append(
-            "the lowest V1 is a limit: towards that design V1 falls, but the interval vanishes; "
-            "ask for --stable A:B to get one that can be used"
-        )
+        notes.append(VANISHES)
     fastest = best.fastest_decay
     if fastest and (fastest["growth_rate"] is None or fastest["growth_rate"] >= 0):
         notes.append(f"no design that was found decays {_where_judged(wanted)}")

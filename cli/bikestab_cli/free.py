@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from bikestab_cli.design_words import VANISHES
 from bikestab_cli.options import Ends, check_files, told_as_options
 from bikestab_cli.output import heading, print_json, prose, table, tell_file, within
 from bikestab_cli.several import Chosen, record_of
@@ -91,8 +92,13 @@ def told_free(free: Free, best: FreeBest, changes: str) -> str:
         parts.append("no design was found that is stable as asked; larger ranges of --free may help")
     if found:
         parts.append(table(["", *found], _rows(free, list(found.values()))))
-    if best.own and best.own["at"] != "interior":
-        parts.append(f"own: {best.own['at']}")
+    places = [
+        f"{name}: {design['at']}" for name, design in best.designs.items() if design["at"] != "interior"
+    ]
+    if places:
+        parts.append("\n".join(places))
+    if best.lowest_V1 and "shrinks" in best.lowest_V1["at"]:
+        parts.append(VANISHES)
     if best.most_robust:
         robust = best.most_robust
         at = ", ".join(f"{name} = {value:.6g}" for name, value in robust["nearest"].items())

@@ -45,3 +45,8 @@ def test_a_picture_is_of_one_machine(told):
     assert (code, out) == (2, "")
     assert "this picture is of one machine" in err
     assert told("--bicycle", "sharp1971", "--free", "delta=0:20", "-o", "a.png")[0] == 0
+
+
+def test_the_table_says_where_optima_lie(told):
+    out = told("--bicycle", "sharp1971", "--free", "delta=0:20", "--free", "trail=5cm:20cm")[1]
+    assert "widest: limit of delta, limit of trail\nlowest V1: limit of delta, limit of trail\n" in out

@@ -146,3 +146,24 @@ def test_points_are_spread_evenly(dimensions):
     for x in points.T:
         assert np.abs(np.histogram(x, 32, (0, 1))[0] - 32).max() <= 3
     assert len(np.unique(points, axis=0)) == 1024
+
+
+SHARP = Bicycle.preset("sharp1971")
+
+
+def test_optima_end_on_limits_and_none_is_beaten_in_its_own_column():
+    found = best_free(Free(SHARP, {"delta": (0.0, 20.0), "trail": (0.05, 0.2)}))
+    for design in (found.widest, found.fastest_decay):
+        assert design["over"] == {"delta": 0.0, "trail": 0.2}
+        assert design["at"] == "limit of delta, limit of trail"
+    for free in (PROBLEMS["paper"], PROBLEMS["one"]):
+        found = best_free(free)
+        designs = list(found.designs.values())
+        assert found.widest["width"] == max(each["width"] for each in designs[1:])
+        assert found.fastest_decay["growth_rate"] == min(each["growth_rate"] for each in designs[1:])
+
+
+def test_an_interval_in_name_only_is_said():
+    found = best_free(Free(MEIJAARD, {"lam": (0.0, 0.6), "sigma": (0.0, 0.3)})).lowest_V1
+    assert found["width"] < 0.01
+    assert found["at"].endswith("edge of the stable region, where the interval shrinks to a point")
