@@ -28,7 +28,7 @@ export async function drawRegion(at, shown, chosen) {
     const some = [...kind.keys()].filter((i) => kind[i] === value);
     const [i, j, k] = [0, 1, 2].map((corner) => Int32Array.from(some, (t) => triangles[3 * t + corner]));
     return {
-      type: "mesh3d", name: `${name} boundary`, x, y, z, i, j, k, color, opacity: 0.8, flatshading: false, hoverinfo: "none",
+      type: "mesh3d", name: `${name} boundary`, x, y, z, i, j, k, color, opacity: 0.6, flatshading: false, hoverinfo: "none",
       showlegend: some.length > 0, visible: some.length > 0,
       lighting: { ambient: 0.55, diffuse: 0.6, specular: 0.1 }, lightposition: { x: -200, y: -300, z: 400 },
     };

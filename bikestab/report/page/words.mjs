@@ -36,7 +36,8 @@ const leastStable = (s) => s.reduce((a, b) => (a[0] >= b[0] ? a : b));
 export function nowInWords(intervals, now, V) {
   const [rate, frequency] = leastStable(now);
   const stable = intervals.some((x) => V > x.V1 && V < (x.V2 ?? Infinity));
-  const what = frequency === 0 ? "leaning to one side" : `swinging ${fixed(Math.abs(frequency) / (2 * Math.PI), 2)} times a second`;
+  const motion = frequency === 0 ? "leaning to one side" : `swinging ${fixed(Math.abs(frequency) / (2 * Math.PI), 2)} times a second`;
+  const what = stable ? `the motion that dies out last, ${motion},` : motion;
   const pace = Math.abs(rate) < 1e-9 ? "neither grows nor dies out"
     : rate > 0 ? `doubles in ${fixed(Math.LN2 / rate, 2)} s` : `halves in ${fixed(-Math.LN2 / rate, 2)} s`;
   return `At ${fixed(V, 2)} m/s (${fixed(3.6 * V, 1)} km/h): ${stable ? "stable" : "not stable"}; ${what} ${pace}.`;
