@@ -33,7 +33,7 @@ def save(figure: Figure, path: Path) -> None:
     where the disk is full.
     """
     if path.suffix.lower() not in PICTURES:
-        meant = nearest(path.suffix, PICTURES)
+        meant = nearest(path.suffix[1:].lower(), [ending[1:] for ending in PICTURES])
         hint = meant if meant.startswith("did") else f"allowed: {', '.join(PICTURES)}"
         raise InputError("has no ending of a picture", place=str(path), hint=hint)
     write(drawn(figure, path.suffix[1:].lower()), path)
