@@ -1,7 +1,7 @@
 """A million random machines on the sphere of a robust design, each by its exact intervals.
 
 ``python -m tests.references.verify_robust [NUMBER]``. Recorded run, November 2026, 1 000 000 machines: radius
-6.629538, all of them stable from 4.6 to 5.4 m/s; at 1.02 of the radius 5486 are not.
+6.629499, all of them stable from 4.6 to 5.4 m/s; at 1.02 of the radius 5483 are not.
 """
 
 import sys
