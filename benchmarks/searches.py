@@ -108,7 +108,7 @@ def compared(free: Free, criterion: Any, searches: dict[str, Any]) -> dict[str, 
     start = time.process_time()
     _, value = best_of(free, criterion)
     found = {"own": (value, value, time.process_time() - start)}
-    module.assessed = assessed  # type: ignore[attr-defined]
+    module.assessed = assessed  # type: ignore[attr-defined]  # as it was
     evaluations = calls[0]
     for name, search in searches.items():
         start = time.process_time()
