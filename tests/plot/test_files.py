@@ -17,7 +17,7 @@ def test_formats(tmp_path, name, start):
 
 
 def test_an_unknown_format(tmp_path):
-    with pytest.raises(InputError, match=r"a\.pgn: has no ending of a picture\ndid you mean '\.png'"):
+    with pytest.raises(InputError, match=r"a\.pgn: has no ending of a picture\ndid you mean 'png'\?"):
         save(Figure(), tmp_path / "a.pgn")
     with pytest.raises(InputError, match=r"/a: has no ending of a picture\nallowed: \.png, \.pdf, \.svg"):
         save(Figure(), tmp_path / "a")

@@ -1,9 +1,11 @@
 """PNG files: what another reader finds in them."""
 
 import io
+import zlib
 
 import numpy as np
 import pytest
+from isal import isal_zlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
@@ -23,6 +25,15 @@ def test_pixels(shape, alpha, mode):
         assert (image.mode, image.size) == (mode, shape[::-1])
         np.testing.assert_array_equal(np.asarray(image), pixels[..., : len(mode)])
         assert image.info["dpi"] == pytest.approx((160, 160), abs=0.01)
+
+
+def test_bytes_do_not_depend_on_the_process():
+    """Which one process cannot see: the level is one at which isal gives the same bytes everywhere."""
+    pixels = np.random.default_rng(2).integers(0, 2, (300, 400, 4), dtype=np.uint8) * 255
+    written = png(pixels, 160)
+    start = written.index(b"IDAT")
+    stream = written[start + 4 :][: int.from_bytes(written[start - 4 : start])]
+    assert stream in [isal_zlib.compress(zlib.decompress(stream), level) for level in (0, 3)]
 
 
 @pytest.mark.parametrize("layout", [None, "constrained"])
