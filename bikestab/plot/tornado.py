@@ -1,8 +1,9 @@
-"""The tornado picture: by how many per cent each parameter moves V1 and V2, the largest effects on top."""
+"""The tornado picture: by how much each parameter moves a result, the largest effects on top."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,48 +13,76 @@ from bikestab.design.effects import Row
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
 
-_V1, _V2 = "#004488", "#DDAA33"  # Tol 2021, high contrast
+_COLORS = ("#004488", "#DDAA33")  # Tol 2021, high contrast
 _LEAST = 0.005  # %/%: smaller bars are none to see
 _PANEL, _BAR = 4.6, 0.24  # inches
 
 
-@own_settings()
+class Bar(NamedTuple):
+    """A parameter, its value and unit, and by how much one per cent more of it moves each result."""
+
+    name: str
+    value: float
+    unit: str
+    effects: tuple[float, ...]
+
+
+class Panel(NamedTuple):
+    """A machine, its bars, and what is said where it has none."""
+
+    name: str
+    bars: Sequence[Bar]
+    none: str
+
+
 def draw_tornado(machines: Sequence[tuple[str, Sequence[Row]]]) -> Figure:
     """One panel for each machine: its name, and the rows of one of its stable intervals.
 
     Bars are per cent of the speed for one per cent of the parameter. Parameters that move neither end by more
     than 0.005 are left out, as are measures of the front that are not in the bicycle's notation.
     """
-    shown = [
-        (name, [row for row in rows if row["notation"] and _size(row) > _LEAST]) for name, rows in machines
-    ]
-    most = max((len(rows) for _, rows in shown), default=0)
-    figure = Figure(figsize=(_PANEL * max(len(shown), 1), 1.4 + _BAR * max(most, 4)), layout="constrained")
-    for i, (name, rows) in enumerate(shown):
-        _panel(figure.add_subplot(1, len(shown), i + 1), name, rows, panels=len(shown), first=i == 0)
+    panels = []
+    for name, rows in machines:
+        bars = [
+            Bar(
+                row["name"], row["value"], row["unit"], (row["elasticity_V1"] or 0, row["elasticity_V2"] or 0)
+            )
+            for row in rows
+            if row["notation"]
+        ]
+        bars = [bar for bar in bars if max(map(abs, bar.effects)) > _LEAST]
+        panels.append(Panel(name, bars, "no stable speed"))
+    return draw_bars(panels, "% of the speed for 1 % more", ("V1", "V2"))
+
+
+@own_settings()
+def draw_bars(panels: Sequence[Panel], words: str, results: Sequence[str] = ("",)) -> Figure:
+    """One panel for each machine; ``words`` say what the bars measure, ``results`` what each colour is of."""
+    most = max((len(panel.bars) for panel in panels), default=0)
+    figure = Figure(figsize=(_PANEL * max(len(panels), 1), 1.4 + _BAR * max(most, 4)), layout="constrained")
+    for i, panel in enumerate(panels):
+        ax = figure.add_subplot(1, len(panels), i + 1)
+        _draw(ax, panel, results)
+        ax.set_xlabel(words)
+        title = short(panel.name) if panel.bars else f"{short(panel.name)}: {panel.none}"
+        set_title(ax, title, panels=len(panels))
+        if i == 0 and len(results) > 1:
+            ax.legend(loc="lower right")
     return figure
 
 
-def _panel(ax: Axes, name: str, rows: Sequence[Row], *, panels: int, first: bool) -> None:
-    place = np.arange(len(rows))
-    shares = {"V1": [row["elasticity_V1"] for row in rows], "V2": [row["elasticity_V2"] for row in rows]}
-    for end, color, shift in (("V1", _V1, -0.2), ("V2", _V2, 0.2)):
-        ax.barh(place + shift, [share or 0.0 for share in shares[end]], height=0.4, color=color, label=end)
+def _draw(ax: Axes, panel: Panel, results: Sequence[str]) -> None:
+    place, height = np.arange(len(panel.bars)), 0.8 / len(results)
+    for i, (result, color) in enumerate(zip(results, _COLORS, strict=False)):
+        at = place + height * (i - 0.5 * (len(results) - 1))
+        ax.barh(at, [bar.effects[i] for bar in panel.bars], height=height, color=color, label=result)
     ax.axvline(0, color="0.2", lw=0.8)
-    ax.set_yticks(place, [_label(row) for row in rows])
-    ax.set_ylim(max(len(rows), 1) - 0.5, -0.5)
+    ax.set_yticks(place, [_label(bar) for bar in panel.bars])
+    ax.set_ylim(max(len(panel.bars), 1) - 0.5, -0.5)
+    ax.locator_params(axis="x", nbins=5)
     ax.grid(axis="x", color="0.9")
     ax.set_axisbelow(True)
-    ax.set_xlabel("% of the speed for 1 % more")
-    set_title(ax, short(name) if rows else f"{short(name)}: no stable speed", panels=panels)
-    if first:
-        ax.legend(loc="lower right")
 
 
-def _label(row: Row) -> str:
-    unit = "" if row["unit"] == "1" else f" {row['unit']}"
-    return f"{row['name']} = {row['value']:.4g}{unit}"
-
-
-def _size(row: Row) -> float:
-    return max(abs(row["elasticity_V1"] or 0.0), abs(row["elasticity_V2"] or 0.0))
+def _label(bar: Bar) -> str:
+    return f"{bar.name} = {bar.value:.4g}{'' if bar.unit == '1' else f' {bar.unit}'}"

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -19,7 +18,7 @@ from bikestab_cli.options import (
     told_as_options,
 )
 from bikestab_cli.output import print_json, prose, tell_file
-from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
+from bikestab_cli.several import Values, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
     from bikestab.design.sensitivity import Hold
@@ -85,11 +84,13 @@ def command(
       bikestab sensitivity --bicycle meijaard2007 --head-angle 71deg --trail 55mm
       bikestab sensitivity --lam 0.1 --sigma 0.08 --of sigma_min
       bikestab sensitivity --bicycle meijaard2007 -o tornado.png
+      bikestab sensitivity --bicycle meijaard2007 --of growth -o growth.png
       bikestab sensitivity --bicycle meijaard2007 --bicycle sharp1971
       bikestab sensitivity --bicycle meijaard2007 --set mB=60,85,110
       bikestab sensitivity --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
     """
     from bikestab_cli.sensitivity_more import MOVED, told_of
+    from bikestab_cli.sensitivity_picture import draw_moved, draw_speeds
     from bikestab_cli.sensitivity_words import opening, side_by_side, told
     from bikestab_cli.spread_words import tell_rider, told_spread
 
@@ -100,10 +101,6 @@ def command(
     from bikestab.export.tables import of_machines, save_csv
     from bikestab.plausible import deviation_doubts
     from bikestab.region.first_sigma import first_sigma, first_sigma_record
-
-    if output and what != "speeds":
-        problem = "the picture shows V1 and V2: leave out --of, or -o"
-        raise click.UsageError(problem, click.get_current_context())
 
     machines = machines_chosen(bicycle_name, delta, changes, given)
     bicycles = [each.bicycle for each in machines]
@@ -135,7 +132,10 @@ def command(
         ]
         save_csv(*of_machines(SENSITIVITY, blocks), csv_file)
     if output:
-        _draw(machines, records, output)
+        if what == "speeds":
+            draw_speeds(machines, records, output)
+        else:
+            draw_moved(machines, found, list(map(MOVED[what], found, firsts)), output)
     files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if as_json:
         print_json(record_of(machines, model, [[_result(record)] for record in records], files))
@@ -158,16 +158,3 @@ def command(
 def _result(record: Mapping[str, Any]) -> dict[str, Any]:
     """What is of one result; the rest is said of all."""
     return {key: value for key, value in record.items() if key not in ("bicycle", "model", "delta")}
-
-
-def _draw(machines: Sequence[Chosen], records: Sequence[Mapping[str, Any]], output: str) -> None:
-    """The effects on each machine's widest stable interval."""
-    from bikestab.design.effects import width
-    from bikestab.plot.files import save
-    from bikestab.plot.tornado import draw_tornado
-
-    panels = []
-    for machine, record in zip(machines, records, strict=True):
-        widest: Any = max(record["intervals"], key=width, default={"parameters": []})
-        panels.append((machine.words, widest["parameters"]))
-    save(draw_tornado(panels), Path(output))

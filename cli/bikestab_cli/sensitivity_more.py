@@ -14,12 +14,14 @@ if TYPE_CHECKING:
 
 BUILDERS = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi)}  # units in which a frame is built
 _NAMES = 6  # named in the line
+_LEAST = 0.005  # of the largest: smaller bars are none to see
 
 
 class Moved(NamedTuple):
-    """What parameters move: in words, its sign and unit, and its derivative by each name; empty for none."""
+    """What parameters move, with and without its value; its sign, unit and derivatives: empty for none."""
 
     words: str
+    what: str
     symbol: str
     unit: str
     slope: Mapping[str, float]
@@ -29,7 +31,7 @@ def growth_moved(found: Sensitivity) -> Moved:
     """The lowest growth rate of a design."""
     best = found.best
     words = f"lowest growth rate: {best.value:.6g} 1/s at {best.V:.6g} m/s"
-    return Moved(words, "growth", " 1/s", best.slope)
+    return Moved(words, "lowest growth rate", "growth", " 1/s", best.slope)
 
 
 def sigma_moved(first: FirstSigma) -> Moved:
@@ -39,7 +41,8 @@ def sigma_moved(first: FirstSigma) -> Moved:
     if first.kind:
         at = "" if first.V in (None, 0.0) else f" at {first.V:.6g} m/s"
         words += f" ({first.kind}{at})"
-    return Moved(words + (f"; {first.reason}" if first.reason else ""), "σ", "", first.slope)
+    words += f"; {first.reason}" if first.reason else ""
+    return Moved(words, "smallest σ with a stable speed", "σ", "", first.slope)
 
 
 MOVED: dict[str, Callable[[Sensitivity, FirstSigma], Moved]] = {
@@ -103,3 +106,14 @@ def _of_notation(found: Sensitivity, name: str) -> bool:
 def told_of(opening: str, found: Sensitivity, moved: Moved) -> str:
     """One machine and the tables of what was asked for."""
     return "\n\n".join(map(prose, [opening, *tables(found, moved)]))
+
+
+def bars(found: Sensitivity, moved: Moved) -> list[tuple[str, float, str, tuple[float]]]:
+    """Of each parameter of the notation that has an effect: name, value, unit, and the effect of 1 % more."""
+    effects = _effects(found, moved)
+    least = _LEAST * max((abs(x) for x in effects.values() if math.isfinite(x)), default=0.0)
+    return [
+        (name, found.values[name], found.units[name], (effects[name],))
+        for name in _sorted(effects)
+        if _of_notation(found, name) and abs(effects[name]) > least
+    ]

@@ -5,7 +5,7 @@ import pytest
 from bikestab.bicycle import Bicycle
 from bikestab.design.effects import effects
 from bikestab.design.sensitivity import sensitivity
-from bikestab.plot.tornado import draw_tornado
+from bikestab.plot.tornado import Bar, Panel, draw_bars, draw_tornado
 
 
 def test_bars_are_elasticities():
@@ -23,3 +23,12 @@ def test_bars_are_elasticities():
     assert tops == sorted(tops)
     assert ax.get_ylim()[0] > ax.get_ylim()[1]
     assert "no stable speed" in empty.get_title()
+
+
+def test_one_result_has_no_legend():
+    bars = [Bar("c", 1.02, "m", (0.05,)), Bar("sigma", 0.08, "1", (-0.01,))]
+    ax, empty = draw_bars([Panel("a", bars, ""), Panel("b", [], "no such σ")], "change of σ").axes
+    assert [bar.get_width() for bar in ax.containers[0]] == [0.05, -0.01]
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["c = 1.02 m", "sigma = 0.08"]
+    assert ax.get_legend() is None
+    assert (ax.get_title(), empty.get_title(), ax.get_xlabel()) == ("a", "b: no such σ", "change of σ")
