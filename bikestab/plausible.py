@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 LONGEST, HEAVIEST, HEAVIEST_FRONT = 10.0, 2000.0, 200.0  # m, kg: several times what real machines have
 _FRONT = {"mR", "mF", "mH", "m2"}  # wheels and fork
 _MILLIMETRES = 300.0  # a longest length from here on is no bicycle's in centimetres
+_CENTIMETRES = 75.0  # and one below is none, but one in inches
+_STRONGEST = 100.0  # m/s², several times what any planet has
 
 
 def warnings_of(bicycle: Bicycle) -> tuple[str, ...]:
@@ -87,14 +89,18 @@ def _other_units(given: Mapping[str, float], notation: Mapping[str, str]) -> tup
     short, words = "mm", "millimetres"
     trail, wheelbase = ("c", "w") if "w" in given else ("trail", "c")
     alone = trail in lengths and wheelbase not in lengths  # no trail is a few decimetres
-    if max(map(abs, lengths.values()), default=0) < _MILLIMETRES and not alone:
-        short, words = "cm", "centimetres"
+    longest = max(map(abs, lengths.values()), default=0)
+    if longest < _MILLIMETRES and not alone:
+        short, words = ("cm", "centimetres") if longest >= _CENTIMETRES else ("in", "inches")
     found = ((lengths, "m", short, words), (masses, "kg", "g", "grams"))
-    return tuple(
+    mistakes = [
         f"{_listed(values, si)}: no bicycle has that; {words} are written {_first(values):g}{unit}"
         for values, si, unit, words in found
         if values
-    )
+    ]
+    if (g := given.get("g", 0.0)) > _STRONGEST:
+        mistakes.append(f"g = {g:g} m/s²: no planet has that; it is about 9.81 m/s² here")
+    return tuple(mistakes)
 
 
 def _first(values: Mapping[str, float]) -> float:
@@ -108,6 +114,11 @@ def _listed(values: Mapping[str, float], unit: str) -> str:
 
 def _geometry(b: Bicycle) -> list[str]:
     doubts = design_doubts(b.lam, b.sigma, b.c)
+    if (centre := (b.m1 * b.l1 + b.m2 * b.l2) / (b.m1 + b.m2)) < 0:
+        doubts.append(
+            f"the centre of mass is {-centre:.4g} m behind the rear contact, so that the machine falls over "
+            "backwards; x points ahead from there"
+        )
     if b.c**2 * (1 + 1e-9) < 4 * b.R1 * b.R2:  # circles on the ground whose contacts are c apart
         doubts.append(
             f"the wheels overlap: radii of {b.R1:g} and {b.R2:g} m need a wheelbase of "

@@ -28,6 +28,7 @@ def scaled(bicycle, unit, factor):
     [
         ("m", 1000, "millimetres are written"),
         ("m", 100, "centimetres are written"),
+        ("m", 1 / 0.0254, "inches are written"),
         ("kg", 1000, "grams are written"),
     ],
 )
@@ -42,6 +43,8 @@ def test_one_number_in_another_unit():
     assert text == "zB = -900 m: no bicycle has that; millimetres are written -900mm"
     (text,) = BENCHMARK.replaced({"c": 55}).warnings
     assert text == "c = 55 m: no bicycle has that; millimetres are written 55mm"
+    (text,) = BENCHMARK.replaced({"g": 9810}).warnings
+    assert text == "g = 9810 m/s²: no planet has that; it is about 9.81 m/s² here"
     (text,) = BENCHMARK.replaced({"mF": 3000}).warnings
     assert text == "mF = 3000 kg: no bicycle has that; grams are written 3000g"
 
@@ -52,6 +55,7 @@ def test_one_number_in_another_unit():
         ({"c": 1.3}, "a trail of 1.3 m is longer than the wheelbase of 1.02 m"),
         ({"lam": math.radians(72)}, "λ = 72° is a head angle of 18°"),
         ({"lam": 1.239}, "is a head angle of 19.01"),
+        ({"xB": -0.3, "xH": -0.9}, "the centre of mass is 0.277 m behind the rear contact"),
         ({"rF": 0.7, "rR": 0.6}, "the wheels overlap: radii of 0.6 and 0.7 m need a wheelbase of 1.296 m"),
     ],
 )
