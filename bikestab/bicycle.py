@@ -15,13 +15,14 @@ from typing import Any, ClassVar
 from bikestab import yamltext
 from bikestab.errors import InputError, nearest
 from bikestab.gains import GAINS
-from bikestab.limits import check_product, check_tilt, check_trail, check_value, require
-from bikestab.notation import MEASURED, MEIJAARD, OPTIONAL, superseded, two_parts
+from bikestab.keyed import keyed
+from bikestab.limits import check_product, check_tilt, check_trail, check_value
+from bikestab.notation import MEIJAARD, superseded, two_parts
 from bikestab.plausible import warnings_of
 from bikestab.presets import preset_names, preset_text
-from bikestab.rider import RIDER, flattened, left_behind
+from bikestab.rider import RIDER, left_behind
 from bikestab.texts import is_there
-from bikestab.units import quantity, shown, units_in
+from bikestab.units import quantity, units_in
 
 
 def _parameter(unit: str, meaning: str, check: str = "", **default: Any) -> Any:
@@ -160,37 +161,15 @@ class Bicycle:
         ``R1`` and ``R2``; two of ``head_angle``, ``trail`` and ``offset`` may stand for tilt and trail.
         ``rider``, a mapping, is one body more than the 25's. InputError names the key.
         """
-        values = flattened(values)
-        texts: dict[str, str] = {"name": name, "source": ""}
-        for key in texts:
-            if (text := values.pop(key, None)) is not None:
-                if not isinstance(text, str):
-                    raise InputError(f"{shown(text)} is not text", key=(key,))
-                texts[key] = str(text)  # YAML readers give subclasses
-        notation = {**MEIJAARD, **RIDER} if _is_meijaard(values) else PAPER
-        known = {**notation, **MEASURED, **GAINS}
-        for key in values:
-            if key not in known:
-                other = " (a key of the other notation)" if key in {**MEIJAARD, **RIDER, **PAPER} else ""
-                raise InputError(
-                    f"unknown parameter{other}",
-                    key=(str(key),),
-                    hint=nearest(str(key), [*known, "name", "source"]),
-                )
-        numbers = {k: quantity(value, units_in(known[k]), key=(k,)) for k, value in values.items()}
-        if MEASURED.keys() & numbers:
-            from bikestab.geometry import in_notation  # most bicycles need no numpy
-
-            numbers = in_notation(numbers, *(("c", "sigma") if notation is PAPER else ("w", "c")))
-        if notation is not PAPER:
-            needed = notation if any(key in RIDER for key in numbers) else MEIJAARD
-            require(numbers, [key for key in needed if key not in OPTIONAL], needed)
-            bicycle = cls(
-                **two_parts(numbers), name=texts["name"], source=texts["source"], gains=_gains(numbers)
-            )
-            object.__setattr__(bicycle, "bodies", numbers)
-            return bicycle
-        return _from_paper(numbers, texts)
+        meijaard, numbers, texts = keyed(values, PAPER, name)
+        name, source = texts["name"], texts["source"]
+        gains = tuple((key, float(numbers[key])) for key in GAINS if numbers.get(key))
+        if not meijaard:
+            own = {key: value for key, value in numbers.items() if key not in GAINS}
+            return cls(**own, name=name, source=source, gains=gains)  # type: ignore[arg-type]  # the keys were checked
+        bicycle = cls(**two_parts(numbers), name=name, source=source, gains=gains)
+        object.__setattr__(bicycle, "bodies", numbers)
+        return bicycle
 
     @classmethod
     def from_file(cls, path: str | Path) -> Bicycle:
@@ -234,30 +213,3 @@ def parameters() -> list[dataclasses.Field[Any]]:
 # The paper's notation: what may stand in a file, with unit and meaning.
 PAPER: dict[str, str] = {f.name: f"{f.metadata['meaning']} [{f.metadata['unit']}]" for f in parameters()}
 PAPER |= {"R": "radius of both wheels [m]", "trail": "own trail along the ground [m]"}
-
-_OPTIONAL = {"g", "delta", "D1", "D2", "lam", "sigma", "trail"}
-
-
-def _is_meijaard(values: Mapping[Any, Any]) -> bool:
-    only = [key for key in values if key in MEIJAARD and key not in PAPER]
-    other = [key for key in values if key in PAPER and key not in MEIJAARD]
-    return len(only) > len(other)
-
-
-def _gains(numbers: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
-    """Those that are not zero, in the order of GAINS."""
-    return tuple((name, float(numbers[name])) for name in GAINS if numbers.get(name))
-
-
-def _from_paper(n: dict[str, float], texts: dict[str, str]) -> Bicycle:
-    if "R" in n:
-        for key in ("R1", "R2"):
-            if key in n:
-                raise InputError("R and " + key + " are both given", key=(key,), hint="give R, or R1 and R2")
-        n["R1"] = n["R2"] = n.pop("R")
-    radii = ("R1", "R2") if "R1" in n or "R2" in n else ("R",)
-    gains = _gains(n)
-    n = {name: value for name, value in n.items() if name not in GAINS}
-    others = [p.name for p in parameters() if p.name not in (*_OPTIONAL, "R1", "R2")]
-    require(n, (*others, *radii), PAPER)
-    return Bicycle(**n, **texts, gains=gains)  # type: ignore[arg-type]  # the keys were checked against PAPER
