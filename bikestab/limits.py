@@ -110,9 +110,11 @@ def least_with(C: float, m: float, R: float, away: float) -> float:
     return C / 2 + (m * C / rest * away**2 if rest > 0 else math.inf if away else 0.0)
 
 
-def allowed(value: Any, check: str) -> Any:
-    """Whether a parameter is of the sign wanted and within MOST; of floats or arrays."""
+def allowed(key: str, value: Any, check: str) -> Any:
+    """Whether a parameter is of the sign wanted, within MOST, and not too small; of floats or arrays."""
     within = abs(value) <= MOST
+    if key in SMALL:
+        within = within & ((value == 0) | (abs(value) >= LEAST))
     return within & (value > 0) if check == "positive" else within & ((value >= 0) | (check == ""))
 
 
@@ -132,7 +134,7 @@ def check_value(key: str, value: float, check: str, meaning: str) -> None:
         raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: up to {MOST:g}")
     if key in SMALL and 0 < abs(value) < LEAST:
         raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: 0, or from {LEAST:g} on")
-    if not allowed(value, check):
+    if not allowed(key, value, check):
         limit = "> 0" if check == "positive" else ">= 0"
         raise InputError(f"{value:g} is not {check} ({meaning})", key=(key,), hint=f"allowed: {key} {limit}")
 

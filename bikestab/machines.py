@@ -167,7 +167,9 @@ def _machine_exists(n: Mapping[str, Any]) -> Any:
     """Where Bicycle would take the paper's parameters."""
     good = True
     for p in _PARAMETERS:
-        good = good & allowed(n[p.name], p.metadata["check"])
+        good = good & allowed(p.name, n[p.name], p.metadata["check"])
+    for name, gain in n["gains"].items():
+        good = good & allowed(name, gain, "")
     for i in "12":
         A, B, C, D, R = (n[letter + i] for letter in "ABCDR")
         good = good & np.logical_not(exceeds(abs(D), np.sqrt(A * B))) & ((R > 0) | (C == 0))
@@ -178,7 +180,7 @@ def _bodies_exist(n: Mapping[str, Any]) -> Any:
     """Where ``two_parts`` would take the 25 parameters."""
     good = True
     for key, check in CHECKS.items():
-        good = good & allowed(n.get(key, 1.0), check)
+        good = good & allowed(key, n.get(key, 1.0), check)
     for inertia in INERTIAS:
         xx, zz, xz = (n.get(inertia + axes, 0.0) for axes in ("xx", "zz", "xz"))
         good = good & np.logical_not(exceeds(abs(xz), np.sqrt(xx * zz)))

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
+from bikestab.gains import GAINS
 from bikestab.machines import Machines, standard_normal, uniforms
 from tests.strategies import machines
 
@@ -53,10 +54,10 @@ def test_standard_normal_is_the_inverse_distribution():
 def test_many_machines_have_the_limits_of_one(machine, data):
     """Replace some parameters by values that may be impossible, and ask both."""
     bicycle = Bicycle.from_mapping(machine)
-    names = data.draw(st.lists(st.sampled_from(sorted(bicycle.given)), min_size=1, max_size=3, unique=True))
+    names = data.draw(st.lists(st.sampled_from(sorted({*bicycle.given, *GAINS})), min_size=1, max_size=3, unique=True))
     names = [name for name in names if name != "lam"] or ["delta"]
     values = {
-        name: data.draw(st.sampled_from([-1e10, -1.0, 0.0, 1e-3, 0.5, 2.0, 1e9, 1e10]), label=name)
+        name: data.draw(st.sampled_from([-1e10, -1.0, 0.0, 1e-60, 1e-3, 0.5, 2.0, 1e9, 1e10]), label=name)
         for name in names
     }
     samples = {name: np.array([bicycle.given.get(name, 0.0), value]) for name, value in values.items()}
@@ -69,7 +70,9 @@ def test_many_machines_have_the_limits_of_one(machine, data):
         return
     drawn = Machines.drawn(bicycle, samples)
     for name, value in one.numbers().items():
-        if name not in ("lam", "sigma"):
+        if name in GAINS:
+            np.testing.assert_array_equal(drawn.gains[name][:, 0], samples[name])
+        elif name not in ("lam", "sigma"):
             column = np.broadcast_to(getattr(drawn, name), drawn.shape)[:, 0]
             assert column == pytest.approx([getattr(bicycle, name), value], rel=1e-14, abs=1e-14)
 

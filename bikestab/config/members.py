@@ -18,7 +18,7 @@ from bikestab.errors import InputError, nearest
 from bikestab.family import Family
 from bikestab.fields import AXES, Axes
 from bikestab.gains import infinite_at_rest
-from bikestab.limits import MOST_TRAIL
+from bikestab.limits import MOST_TRAIL, SMALL
 from bikestab.model import Floats
 from bikestab.variants import FRONT, fixed_by, front_of, varied
 
@@ -114,7 +114,7 @@ def check_designs(machines: list[Member], grid: Grid | FamilyGrid) -> None:
         return
     for member in machines:
         family = Family(member.bicycle, x=x, y=y)
-        for corner in product(grid.ends(x), grid.ends(y)):
+        for corner in product(_telling(grid, x), _telling(grid, y)):
             try:
                 family.check(*corner)
             except InputError as error:
@@ -124,6 +124,15 @@ def check_designs(machines: list[Member], grid: Grid | FamilyGrid) -> None:
                 name = str(error.key[0]) if error.key else x
                 key = ("grid", grid.key(name)) if name in (x, y) else ("grid",)
                 raise InputError(f"at {at}: {error.problem}", key=key, hint=error.hint) from None
+
+
+def _telling(grid: Grid | FamilyGrid, name: str) -> tuple[float, ...]:
+    """The ends of an axis and, of a parameter that may be too small, what is nearest to zero."""
+    ends = grid.ends(name)
+    if name not in SMALL:
+        return ends
+    some = [value for value in grid.values(name).tolist() if value]
+    return *ends, min(some, key=abs, default=0.0)
 
 
 def members(machine: Bicycle, sweep: Mapping[str, NumberAxis]) -> list[Member]:
