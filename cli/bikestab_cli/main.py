@@ -11,7 +11,8 @@ from contextlib import suppress
 from pathlib import Path
 
 import click
-from bikestab_cli.streams import LONGEST, cut, visible_streams
+from bikestab_cli.messages import cut, folded
+from bikestab_cli.streams import visible, visible_streams
 
 from bikestab import __version__
 from bikestab.errors import BikestabError, InputError, ScanError, nearest
@@ -144,11 +145,7 @@ def _check_memory() -> None:
 
 
 def _tell(code: int, message: str, hint: str = "") -> int:
-    lines = [*message.split("\n"), *([hint] if hint else [])]
-    click.echo(
-        "\n".join([cut(f"error: {lines[0]}"), *(f"  {cut(line, LONGEST - 2)}" for line in lines[1:3])]),
-        err=True,
-    )
+    click.echo("\n".join(folded(visible(f"error: {message}"), hint)), err=True)
     return code
 
 

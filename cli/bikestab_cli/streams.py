@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any, TextIO
 
-LONGEST = 200  # characters of a line on stderr
+from bikestab_cli.messages import cut
+
 _HIDDEN = re.compile(  # controls but tab and newline, what changes the direction of text, halves of pairs
     "[\0-\b\v\f\x0e-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]|\r(?!\n)"
 )
@@ -25,12 +26,6 @@ _SPELT = {
 def visible(text: str) -> str:
     """With an escape such as ``\\u001b`` for each control character."""
     return _HIDDEN.sub(_escape, text)
-
-
-def cut(line: str, most: int = LONGEST) -> str:
-    """The line without its middle where it is longer than ``most`` characters."""
-    half = (most - 5) // 2
-    return line if len(line) <= most else f"{line[:half]} ... {line[-half:]}"
 
 
 def _escape(match: re.Match[str]) -> str:
@@ -72,7 +67,7 @@ class Visible:
 
 
 class Messages(Visible):
-    """The same for stderr: long lines lose their middle, and nobody need be listening."""
+    """The same for stderr: long lines are cut, and nobody need be listening."""
 
     def write(self, text: str) -> int:
         return super().write("\n".join(cut(line) for line in visible(text).split("\n")))

@@ -258,7 +258,9 @@ def test_samples_and_axes_whose_products_would_underflow():
         "delta = 1.79892e-52: 1.79892e-52 is out of range\n"
         "allowed: 0, or from 1e-50 on; take a narrower distribution, or uniform: [low, high]"
     )
-    grid = "grid: {x: {name: delta, values: [0, 1.0e-60, 1]}, y: {name: sigma, start: 0.01, stop: 0.1, num: 3}"
+    grid = (
+        "grid: {x: {name: delta, values: [0, 1.0e-60, 1]}, y: {name: sigma, start: 0.01, stop: 0.1, num: 3}"
+    )
     text = f"bicycle: meijaard2007\n{grid}, V: {{start: 0, stop: 10, num: 5}}}}\noutput: o\n"
     assert message(text) == (
         "scan.yaml, line 2: grid.x: at delta = 1e-60, sigma = 0.01: 1e-60 is out of range\n"

@@ -16,7 +16,8 @@ from itertools import pairwise
 from pathlib import Path
 
 from bikestab_cli.main import main
-from bikestab_cli.streams import LONGEST, visible
+from bikestab_cli.messages import LONGEST
+from bikestab_cli.streams import visible
 
 SECONDS = 10.0  # of processor time
 KEPT = "kept.csv"
