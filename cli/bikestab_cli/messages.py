@@ -29,7 +29,7 @@ def cut(line: str, most: int = LONGEST) -> str:
     """
     for longest in _WORDS:
         if len(line) > most:
-            line = "".join(_around(part, longest, "...") for part in _WORD.split(line))
+            line = _with_shorter(line, longest, most)
             line = _with_fewer(line, most)
     return _around(line, most, " ... ")
 
@@ -43,11 +43,20 @@ def _wrapped(line: str, number: int) -> list[str]:
     style = textwrap.TextWrapper(
         LONGEST, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
     )
+    line = _with_shorter(line, LONGEST - 60, LONGEST)  # so that something stands beside each
     for room in (len(line), number * (LONGEST - 30), number * LONGEST // 2):
         parts = [cut(part) for part in style.wrap(cut(line, room))]
         if len(parts) <= number:
             return parts
     return [cut(line)]
+
+
+def _with_shorter(line: str, longest: int, most: int) -> str:
+    """The line with words of at most so many characters, or as many more as there is room for."""
+    words = _WORD.split(line)
+    long = [len(word) for word in words if len(word) > longest]
+    room = max(longest, (most - len(line) + sum(long)) // max(len(long), 1))
+    return "".join(_around(word, room, "...") for word in words)
 
 
 def _around(text: str, most: int, mark: str) -> str:

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 from bikestab_cli.main import LEAST_MEMORY
-from bikestab_cli.streams import LONGEST, Messages, Visible, cut, visible
+from bikestab_cli.messages import LONGEST, cut
+from bikestab_cli.streams import Messages, Visible, visible
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 BIKESTAB = shutil.which("bikestab", path=str(Path(sys.executable).parent)) or shutil.which("bikestab")
@@ -75,7 +76,7 @@ def test_long_lines_lose_their_middle(tmp_path):
     assert cut("a" * LONGEST) == "a" * LONGEST
     line = cut("begin" + "a" * 10_000 + "end")
     assert len(line) <= LONGEST
-    assert (line[:5], line[-3:], " ... " in line) == ("begin", "end", True)
+    assert (line[:5], line[-3:], "..." in line) == ("begin", "end", True)
     with (tmp_path / "a").open("w") as file:
         Messages(file).write("b" * 1000 + "\nshort\n")
     assert [len(line) for line in (tmp_path / "a").read_text().splitlines()] == [LONGEST - 1, 5]
