@@ -85,9 +85,9 @@ class Ball:
         the speeds, each in units of ``scale``. What is no machine has −1.
         """
         table, good = self._tables(x, z)
-        V = np.linspace(*self.stable, self._speeds)
-        values = np.array(conditions(table[..., np.newaxis], V))  # (condition, S, V)
-        return np.asarray(np.where(good, (values / self.scale).min(axis=(0, 2)), -1.0))
+        values = self._conditions(table)
+        values /= self.scale
+        return np.where(good, values.min(axis=(0, 1)), -1.0)
 
     def certain(self, x: Floats, z: Floats) -> NDArray[np.bool_]:
         """Which of such machines are stable at all of the speeds, by their exact intervals."""
@@ -98,15 +98,15 @@ class Ball:
 
     @cached_property
     def scale(self) -> Floats:
-        """The sizes of the conditions (condition, 1, V) in the middle of the box."""
+        """The sizes of the conditions (condition, V, 1) in the middle of the box."""
         middle = np.mean(list(self.ends.values()), axis=1)[:, np.newaxis]
         table, _ = self._tables(middle, np.zeros((len(self.deviations), 1)))
-        values = np.abs(conditions(table[..., np.newaxis], np.linspace(*self.stable, self._speeds)))
-        return np.maximum(values, 1e-300)
+        return np.maximum(np.abs(self._conditions(table)), 1e-300)
 
-    @property
-    def _speeds(self) -> int:
-        return 1 if self.stable[0] == self.stable[1] else _SPEEDS
+    def _conditions(self, table: Floats) -> Floats:
+        """The six of (2.2) (condition, V, S) at speeds from the first to the last."""
+        number = 1 if self.stable[0] == self.stable[1] else _SPEEDS
+        return np.array(conditions(table[:, :, np.newaxis], np.linspace(*self.stable, number)[:, np.newaxis]))
 
     def _tables(self, x: Floats, z: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """Tables (5, 4, S), and which are of a machine."""

@@ -11,7 +11,9 @@ from bikestab.model import Floats
 
 FARTHEST = 100.0  # how far a ray goes
 _MARCH, _PARTS = 24, 12  # steps of a ray to FARTHEST; into how many parts the last is cut
-_SECANTS, _NARROW = 12, 1e-8  # steps by secants into that part, at most, and how narrow it becomes
+_NARROW = 1e-8  # of the distance: how narrow that part becomes
+_EVEN = np.linspace(0, 1, 7)[1:-1, np.newaxis]
+_CLOSE = np.array([-1e-2, -1e-4, -1e-6, 1e-6, 1e-4, 1e-2])[:, np.newaxis]  # to the zero, in shares
 Margin = Callable[[Floats, NDArray[np.intp]], Floats]  # at distances (point,) along rays of these numbers
 
 
@@ -37,20 +39,17 @@ def first_ends(margin: Margin, number: int) -> Floats:
 
 
 def _narrowed(margin: Margin, ends: tuple[Floats, Floats], values: tuple[Floats, Floats]) -> Floats:
-    """The last distance with a margin between ``ends``, by the Illinois method, and then by halving."""
+    """The last distance with a margin between ``ends``: by parts, small ones beside the secant's zero."""
     (low, high), (inside, outside) = (np.array(each) for each in (ends, values))
-    stayed = np.zeros(len(low))  # 1 where the last step moved the lower end, −1 where it moved the upper
-    step = 0
     while (open_ := np.flatnonzero(high - low > _NARROW * np.maximum(low, 1e-6))).size:
         a, b, f, g = low[open_], high[open_], inside[open_], outside[open_]
-        share = np.clip(f / (f - g), 0.01, 0.99) if step < _SECANTS else 0.5
-        at = a + (b - a) * share
-        value = margin(at, open_)
-        side = np.where(value > 0, 1, -1)
-        again = np.where(stayed[open_] == side, 0.5, 1.0)  # of the end that stays a second time
-        kept = side > 0
-        low[open_], high[open_] = np.where(kept, at, a), np.where(kept, b, at)
-        inside[open_], outside[open_] = np.where(kept, value, again * f), np.where(kept, again * g, value)
-        stayed[open_] = side
-        step += 1
+        share = np.vstack([np.tile(_EVEN, (1, len(a))), f / (f - g) + _CLOSE])
+        share = np.sort(np.clip(share, 0.0, 1.0), axis=0)
+        far = a + (b - a) * share
+        found = margin(far.ravel(), np.tile(open_, len(far))).reshape(far.shape)
+        far, found = np.vstack([a, far, b]), np.vstack([f, found, g])
+        first = (found[1:] <= 0).argmax(axis=0)
+        ray = np.arange(len(a))
+        low[open_], high[open_] = far[first, ray], far[first + 1, ray]
+        inside[open_], outside[open_] = found[first, ray], found[first + 1, ray]
     return low
