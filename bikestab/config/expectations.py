@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from time import perf_counter
 from typing import Any, NamedTuple
 
 from bikestab.arguments import design_of
@@ -19,12 +20,16 @@ _Key = tuple[str | int, ...]
 
 
 class Outcome(NamedTuple):
-    """An expectation, the design it is of, the stable intervals found there, and whether it holds."""
+    """An expectation, the design it is of, the stable intervals found there, and whether it holds.
+
+    And how many ``seconds`` that took.
+    """
 
     expected: Expectation
     design: Design
     found: list[Interval]
     holds: bool
+    seconds: float
 
 
 def outcomes(config: ScanConfig | CheckConfig) -> list[Outcome]:
@@ -35,10 +40,11 @@ def outcomes(config: ScanConfig | CheckConfig) -> list[Outcome]:
 
 
 def _outcome(config: ScanConfig | CheckConfig, expected: Expectation, key: _Key) -> Outcome:
+    start = perf_counter()
     machine, lam, sigma = _designed(config.machine, expected, key)
     found = interval_records(intervals_of(exact_table(machine, lam, sigma, model=config.model)))
     holds = not found if expected.stable else not all(missed(expected, interval) for interval in found)
-    return Outcome(expected, design_record(lam, sigma, machine), found, holds)
+    return Outcome(expected, design_record(lam, sigma, machine), found, holds, perf_counter() - start)
 
 
 def _designed(

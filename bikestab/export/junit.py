@@ -16,7 +16,7 @@ _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
 class Case(NamedTuple):
-    """One check: its name, what is wrong (nothing where it passed), and what was expected and found.
+    """One check: its name, what is wrong (nothing where it passed), expected and found, and its time [s].
 
     ``unusable`` says that there was nothing to check.
     """
@@ -24,14 +24,16 @@ class Case(NamedTuple):
     name: str
     problem: str
     text: str
+    seconds: float
     unusable: bool = False
 
 
 class Suite(NamedTuple):
-    """The checks of one file."""
+    """The checks of one file, and how many seconds all of it took, the file's reading among it."""
 
     name: str
     cases: Sequence[Case]
+    seconds: float
 
 
 def save_junit(suites: Sequence[Suite], path: str | Path) -> None:
@@ -45,9 +47,8 @@ def save_junit(suites: Sequence[Suite], path: str | Path) -> None:
         head = {"name": _text(suite.name), "timestamp": now, "skipped": "0", **_counts([suite])}
         element = ElementTree.SubElement(root, "testsuite", head)
         for case in suite.cases:
-            shown = ElementTree.SubElement(
-                element, "testcase", name=_text(case.name), classname=_text(suite.name), time="0.000"
-            )
+            whose = {"name": _text(case.name), "classname": _text(suite.name)}
+            shown = ElementTree.SubElement(element, "testcase", whose, time=f"{case.seconds:.3f}")
             if case.problem:
                 kind, of = ("error", "input") if case.unusable else ("failure", "check")
                 problem = ElementTree.SubElement(shown, kind, type=of, message=_text(case.problem))
@@ -64,7 +65,8 @@ def _counts(suites: Sequence[Suite]) -> dict[str, str]:
     errors = sum(case.unusable for case in cases)
     failures = sum(bool(case.problem) for case in cases) - errors
     counts = {"tests": len(cases), "failures": failures, "errors": errors}
-    return {**{name: str(number) for name, number in counts.items()}, "time": "0.000"}
+    seconds = sum(suite.seconds for suite in suites)
+    return {**{name: str(number) for name, number in counts.items()}, "time": f"{seconds:.3f}"}
 
 
 def _text(text: str) -> str:

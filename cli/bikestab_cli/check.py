@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
+from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -20,13 +21,14 @@ if TYPE_CHECKING:
 
 
 class Checked(NamedTuple):
-    """A config by its file's name: what was found of it, or why nothing was."""
+    """A config by its file's name: what was found of it, or why nothing was, and how many seconds it took."""
 
     name: str
     bicycle: str
     model: str
     outcomes: list[Outcome]
     error: BikestabError | None
+    seconds: float
 
 
 @click.command("check")
@@ -82,12 +84,14 @@ def _checked(name: str) -> Checked:
     from bikestab.config.expectations import outcomes
     from bikestab.config.file import load_checked
 
+    start = perf_counter()
     try:
         with of_file(name):
             config = load_checked(name)
-            return Checked(name, config.machine.name, config.model, outcomes(config), None)
+            found = outcomes(config)
+            return Checked(name, config.machine.name, config.model, found, None, perf_counter() - start)
     except BikestabError as error:
-        return Checked(name, "", "", [], error)
+        return Checked(name, "", "", [], error, perf_counter() - start)
 
 
 def _table(checked: list[Checked]) -> str:
@@ -103,8 +107,7 @@ def _table(checked: list[Checked]) -> str:
 def _row(name: str, outcome: Outcome) -> list[str]:
     expected = outcome.expected
     lam, sigma, offset = design_columns(outcome.design)
-    others = "".join(f"{key} = {value:.6g}\n" for key, value in (expected.model_extra or {}).items())
-    wanted = f"{others}{_text(expected.V1)}\n{_text(expected.V2)}\nwithin {_within(expected.within)}"
+    wanted = f"{_text(expected.V1)}\n{_text(expected.V2)}\nwithin {_within(expected.within)}"
     found = []
     for interval in outcome.found:
         V2 = "unbounded"
@@ -113,13 +116,18 @@ def _row(name: str, outcome: Outcome) -> list[str]:
         found += [certain(interval["V1"], interval["V1_error"], 13, "g"), V2]
     verdict = "holds" if outcome.holds else "FAILED"
     return [
-        name,
+        "\n".join([name, *_others(outcome)]),
         lam,
         sigma + offset,
-        others + expected.stable if expected.stable else wanted,
+        expected.stable or wanted,
         "\n".join(found) or "never",
         verdict,
     ]
+
+
+def _others(outcome: Outcome) -> list[str]:
+    """The other parameters that have values of their own in an expectation."""
+    return [f"{name} = {value:.6g}" for name, value in (outcome.expected.model_extra or {}).items()]
 
 
 def _text(V: float | None) -> str:
@@ -188,12 +196,14 @@ def _suite(checked: Checked) -> Suite:
     from bikestab.export.junit import Case, Suite
 
     if checked.error:
-        return Suite(checked.name, [Case("config", "cannot be used", str(checked.error), True)])
+        unusable = Case("config", "cannot be used", str(checked.error), checked.seconds, True)
+        return Suite(checked.name, [unusable], checked.seconds)
     cases = []
     for number, outcome in enumerate(checked.outcomes):
         _, lam, sigma, wanted, found, _ = (cell.replace("\n", " ") for cell in _row("", outcome))
-        design = f"lam {lam.split()[0]}, sigma {sigma.split()[0]}"
-        design += "".join(f", {name} {x:g}" for name, x in (outcome.expected.model_extra or {}).items())
+        others = _others(outcome)
+        design = ", ".join([f"lam {lam.split()[0]}", f"sigma {sigma.split()[0]}", *others])
         text = f"expected [m/s]: {wanted}\nfound [m/s]: {found}"
-        cases.append(Case(f"expect[{number}]: {design}", _problem(outcome), text))
-    return Suite(checked.name, cases)
+        text = "\n".join([f"with {', '.join(others)}", text]) if others else text
+        cases.append(Case(f"expect[{number}]: {design}", _problem(outcome), text, outcome.seconds))
+    return Suite(checked.name, cases, checked.seconds)

@@ -123,6 +123,10 @@ def test_junit(bikestab):
             look(child)
 
     look(read._elem)
+    assert read.time == pytest.approx(sum(suite.time for suite in suites), abs=2e-3)  # rounded to 1 ms
+    assert suites[0].time > 0
+    for suite in suites:
+        assert 0 <= sum(case.time for case in suite) <= suite.time + 2e-3
 
 
 def test_junit_that_cannot_be_written(bikestab):
@@ -181,7 +185,10 @@ def test_other_parameters_are_told_of(bikestab):
     assert (code, first["over"], "over" in second) == (0, {"mB": 100}, False)
     assert "mB = 100" in bikestab("check", "a.yaml")[1]
     names = [case.name for suite in junitparser.JUnitXml.fromfile("a.xml") for case in suite]
-    assert names[0].endswith("mB 100")
+    assert names[0].endswith(", mB = 100")
+    texts = [case.system_out for suite in junitparser.JUnitXml.fromfile("a.xml") for case in suite]
+    assert texts[0].startswith("with mB = 100\nexpected [m/s]: 4.513 6.394 within 0.001\nfound [m/s]: 4.51")
+    assert texts[1].startswith("expected [m/s]: 4.2924 any")
     # what vrange says of the same machine
     _, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=100", "--json")
     assert json.loads(out)["results"][0]["intervals"] == first["intervals"]
