@@ -147,6 +147,22 @@ def zero_of_even(a: Twofold, b: Twofold, fine: bool) -> Zeros:
 
 def zeros_of_quadratic(entries: Entries, condition: Condition, c: Sequence[Double]) -> Zeros:
     """The positive zeros V of hurwitz3 without damping, c0 + c1 V² + c2 V⁴; ``sure`` where they are good."""
+    V, good, _ = _roots_of_quadratic(c)
+    return corrected(entries, condition, (c[0], None, c[1], None, c[2]), V, good)
+
+
+def rough_zeros_of_quadratic(c: Sequence[Double]) -> Zeros:
+    """The same as double precision gives them, next to double zeros with as few digits as it leaves there."""
+    V, good, root = _roots_of_quadratic(c)
+    square = V * V
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        radius = (c[2].size * square + c[1].size) * square + c[0].size
+        radius *= POLYNOMIAL / (root * V)  # the slope by V² is ± the root; half of it by V
+    return Zeros(V, np.zeros_like(V), radius, good)
+
+
+def _roots_of_quadratic(c: Sequence[Double]) -> tuple[Floats, _Cells, Floats]:
+    """The positive V (2, cell), whether there are so many for certain, and the discriminant's root."""
     c0, c1, c2 = c
     product = c0 * c2
     square = c1 * c1 - Double(4 * product.value, 4 * product.size)
@@ -156,12 +172,12 @@ def zeros_of_quadratic(entries: Entries, condition: Condition, c: Sequence[Doubl
     apart = (ends < 0) | (np.abs(square.value) > 4 * POLYNOMIAL * square.size) | (sure1 & (s1 * s2 >= 0))
     good = sure0 & sure2 & np.where(ends == 0, sure1, apart)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        q = -0.5 * (c1.value + np.copysign(np.sqrt(square.value), c1.value))  # NaN without real zeros
+        root = np.sqrt(square.value)  # NaN without real zeros
+        q = -0.5 * (c1.value + np.copysign(root, c1.value))
         one, other = (
             np.sqrt(np.where(good & (x > 0) & (x < np.inf), x, np.nan)) for x in (q / c2.value, c0.value / q)
         )
-    V = np.array([np.fmin(one, other), np.maximum(one, other)])
-    return corrected(entries, condition, (c0, None, c1, None, c2), V, good)
+    return np.array([np.fmin(one, other), np.maximum(one, other)]), good, root
 
 
 def zeros_between(entries: Entries, condition: Condition, c: Coefficients) -> Zeros:

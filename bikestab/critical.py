@@ -17,6 +17,7 @@ from bikestab.corrected import (
     hurwitz3_near,
     p1_at,
     p1_near,
+    rough_zeros_of_quadratic,
     zero_of_even,
     zeros_between,
     zeros_of_quadratic,
@@ -24,6 +25,7 @@ from bikestab.corrected import (
 from bikestab.entries import DAMPED, EVEN, Cells, Entries, cells_of, scaled
 from bikestab.isolation import guessed
 from bikestab.model import ExactTable, Floats
+from bikestab.polynomials import of_squares
 from bikestab.rounding import CANCELLED
 from bikestab.routh import CONDITIONS, hurwitz3_of, without_noise
 from bikestab.twofold import Double, Twofold
@@ -48,19 +50,18 @@ class Critical(NamedTuple):
     zeros: dict[str, Zeros]
 
 
-def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS) -> Critical:
+def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS, rough: bool = False) -> Critical:
     """The critical speeds and the signs before them of a table (5, 4, *shape).
 
     Without damping all are square roots of the zeros of linear and quadratic polynomials in V²; with
     damping those of p1 and hurwitz3 are isolated first. A cell's result does not depend on other cells.
+    Without damping ``rough`` speeds are as double precision gives them.
     """
     shape = table.shape[2:]
     cells = cells_of(table)
     number = cells.value.shape[-1]
-    parts = [
-        _critical_of(cells.some(slice(start, start + _CHUNK)), names)
-        for start in range(0, max(number, 1), _CHUNK)
-    ]
+    places = [slice(start, start + _CHUNK) for start in range(0, max(number, 1), _CHUNK)]
+    parts = [_critical_of(cells.some(place), names, rough) for place in places]
     speeds, sign, zeros = {}, {}, {}
     for name in names:
         found = [part[name][0] for part in parts]
@@ -76,7 +77,7 @@ def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS) -> C
     return Critical(speeds, sign, zeros)
 
 
-def _critical_of(table: Cells, names: Sequence[str]) -> dict[str, Found]:
+def _critical_of(table: Cells, names: Sequence[str], rough: bool) -> dict[str, Found]:
     """For each name the zeros (root, cell) of a table (5, 4, cell), and the sign before them."""
     number = table.value.shape[-1]
     damped, odd = np.zeros((2, number), bool)
@@ -87,30 +88,33 @@ def _critical_of(table: Cells, names: Sequence[str]) -> dict[str, Found]:
         if key not in EVEN:
             into = damped if key in DAMPED else odd
             into |= table.has(key)
-    uneven = damped | odd
-    groups = ((_even, EVEN, ~uneven), (_damped, DAMPED, uneven & ~odd), (_any, keys, odd))
+    even = partial(_even, rough=rough), EVEN, ~(damped | odd)
+    groups = (even, (_damped, DAMPED, damped & ~odd), (_any, keys, odd))
     found: dict[str, list[tuple[NDArray[np.bool_], Zeros, Floats]]] = {name: [] for name in names}
     for solve, which, chosen in groups:
         if chosen.any():
             part = table if chosen.all() else table.some(chosen)
-            entries, unit = scaled(part, which, closed=solve is _even)
+            entries, unit = scaled(part, which, closed=which is EVEN)
             for name in names:
                 zeros, sign = solve(entries, name)
                 found[name].append((chosen, zeros if unit is None else zeros.scaled(unit), sign))
     return {name: _together(each, number) for name, each in found.items()}
 
 
-def _even(entries: Entries, name: str) -> Found:
+def _even(entries: Entries, name: str, rough: bool = False) -> Found:
     """Without damping: p0, p2, p1/V and hurwitz3/V² in V²."""
-    numbers = entries.numbers
     if name == "hurwitz3":
         w = _hurwitz3_even(entries.doubles())
+        if rough:
+            return _found(rough_zeros_of_quadratic(w), w)
         found = _found(zeros_of_quadratic(entries, _EVEN_HURWITZ3, w), w)
         return _again(found, entries, _fine_even, _left_even, _fine_even)
+    numbers = entries.numbers
     if name in ("p3", "p4"):
         return _found(_none(len(entries)), [numbers[(3, 1) if name == "p3" else (4, 0)]])
     a, b = {"p0": ((0, 0), (0, 2)), "p1": ((1, 1), (1, 3)), "p2": ((2, 0), (2, 2))}[name]
-    return _found(zero_of_even(numbers[a], numbers[b], fine=name == "p0"), [numbers[a], numbers[b]])
+    zeros = zero_of_even(numbers[a], numbers[b], fine=name == "p0" and not rough)
+    return _found(zeros, [numbers[a], numbers[b]])
 
 
 def _hurwitz3_even(n: dict[tuple[int, int], T]) -> list[T]:
@@ -121,14 +125,7 @@ def _hurwitz3_even(n: dict[tuple[int, int], T]) -> list[T]:
     return [e0 * slow - f0 * square, e0 * fast + e * slow - f * square, e * fast]
 
 
-def _spread(w: Sequence[T]) -> list[T | None]:
-    """A polynomial in V² as one in V."""
-    out: list[T | None] = [None] * (2 * len(w) - 1)
-    out[::2] = w
-    return out
-
-
-_EVEN_HURWITZ3 = Condition(lambda n: _spread(_hurwitz3_even(n)), hurwitz3_near, hurwitz3_at)
+_EVEN_HURWITZ3 = Condition(lambda n: of_squares(_hurwitz3_even(n)), hurwitz3_near, hurwitz3_at)
 _P1 = Condition(lambda n: _rows(n)[1], p1_near, p1_at)
 _HURWITZ3 = Condition(lambda n: hurwitz3_of(_rows(n)), hurwitz3_near, hurwitz3_at)
 
@@ -139,7 +136,7 @@ def _fine_even(entries: Entries) -> Found:
 
 
 def _left_even(entries: Entries) -> Found:
-    w = _spread(_hurwitz3_even(entries.cancelled()))
+    w = of_squares(_hurwitz3_even(entries.cancelled()))
     return _found(zeros_of(w, len(entries), CANCELLED), w)
 
 

@@ -5,6 +5,7 @@ A polynomial is an array of coefficients of x^0, x^1, … along the first axis, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -34,6 +35,13 @@ def value_and_slopes(c: Floats, x: Floats) -> tuple[Floats, Floats, Floats]:
         slope = slope * x + out
         out = out * x + cj
     return out, slope, bend
+
+
+def of_squares(w: Sequence[T]) -> list[T | None]:
+    """A polynomial in V² as one in V."""
+    out: list[T | None] = [None] * (2 * len(w) - 1)
+    out[::2] = w
+    return out
 
 
 def product_of(a: list[T | None], b: list[T | None]) -> list[T | None]:

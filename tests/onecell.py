@@ -1,7 +1,8 @@
-"""Tables of a single cell."""
+"""Tables of a single cell, and critical speeds that are others."""
 
 import numpy as np
 
+from bikestab.certain import Zeros
 from bikestab.routh import CONDITIONS
 
 
@@ -12,3 +13,9 @@ def table_of(**rows):
     for name, row in rows.items():
         table[CONDITIONS.index(name), :, 0] = [*row, *[0] * (4 - len(row))]
     return table
+
+
+def with_speeds(exact, speeds):
+    """Critical speeds with others for some conditions, as if they were exact."""
+    zeros = {name: Zeros(V, 0 * V, 0 * V, exact.zeros[name].sure) for name, V in speeds.items()}
+    return exact._replace(speeds={**exact.speeds, **speeds}, zeros={**exact.zeros, **zeros})

@@ -15,32 +15,35 @@ from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, conditions, conditions_at_rest, violated
 from bikestab.scan.agreement import size_of_terms
 
-ALL = np.uint8((1 << len(CONDITIONS)) - 1)
+ALL = (1 << len(CONDITIONS)) - 1
+Indices = NDArray[np.intp]
 _PART = 1 << 14  # points at which conditions are evaluated at a time
+_FROM = np.triu(np.ones((8, 8), np.uint8)).view(np.uint64).ravel()  # ones from each byte of a word on
 NEAR = 1e-9  # relative; that close to a root rounding might decide, and the conditions are evaluated
 
 
 def violated_between(table: Floats, critical: Critical, V: Floats) -> NDArray[np.uint8]:
     """The bit mask of ``routh.violated`` for a table (5, 4, cell) at the speeds V [m/s]; (cell, V).
 
-    V ascends and is not negative. At rest, and at the speed next to a root if it is within NEAR of it, the
-    conditions themselves decide; so they do in cells that may have other roots, where they are more than
-    rounding.
+    V ascends and is not negative. At rest, and at the speed next to a root if it is within NEAR or the
+    root's radius of it, the conditions themselves decide; so they do in cells that may have other roots,
+    where they are more than rounding.
     """
     n = table.shape[-1]
     first = np.zeros(n, np.uint8)  # the mask just above V = 0
     steps, close = [], []
     ends = np.concatenate([[-np.inf], V, [np.inf]])
-    for bit, name in enumerate(CONDITIONS):
-        first |= (~(critical.sign[name] > 0)).view(np.uint8) << np.uint8(bit)
-        for root in critical.speeds[name]:
-            place = np.searchsorted(V, root)  # the first speed that is not below; NaN sorts behind all
+    for k, name in enumerate(CONDITIONS):
+        bit = np.uint8(1 << k)
+        first |= np.where(critical.sign[name] > 0, np.uint8(0), bit)
+        zeros = critical.zeros[name]
+        for root, radius in zip(zeros.V, zeros.radius, strict=True):
+            place, below, above = _placed(root, V, ends)
             steps.append(place << len(CONDITIONS) | bit)
-            below, above = root - ends[place], ends[place + 1] - root
-            cell = np.flatnonzero(np.minimum(below, above) <= NEAR * root)
+            cell = np.flatnonzero(np.minimum(below, above) <= np.fmax(NEAR * root, radius))
             if len(cell):
                 close.append((cell, place[cell] - (below[cell] < above[cell])))
-    mask = _runs(first, np.sort(np.array(steps, np.intp).reshape(-1, n).T, axis=1), len(V))
+    mask = _runs(first, steps, len(V))
     if V[0] == 0:
         mask[:, 0] = violated(conditions_at_rest(table))
     if close:
@@ -67,15 +70,56 @@ def undecided(critical: Critical) -> NDArray[np.bool_]:
     return ~np.logical_and.reduce([zeros.sure for zeros in critical.zeros.values()])
 
 
-def _runs(first: NDArray[np.uint8], steps: NDArray[np.intp], num: int) -> NDArray[np.uint8]:
+def _placed(root: Floats, V: Floats, ends: Floats) -> tuple[Indices, Floats, Floats]:
+    """The first speed that is not below each root, behind all for NaN, and how far both neighbours are.
+
+    ``ends`` are V between infinities. The place is guessed as if speeds were even, and searched for where it
+    is another.
+    """
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        even = (root - V[0]) * ((len(V) - 1) / (V[-1] - V[0])) + 1
+        place = np.fmax(np.fmin(even, len(V)), 0).astype(np.intp)
+    below, above = root - ends[place], ends[place + 1] - root
+    wrong = np.flatnonzero((below <= 0) | (above < 0))
+    if len(wrong):
+        place[wrong] = at = np.searchsorted(V, root[wrong])
+        below[wrong], above[wrong] = root[wrong] - ends[at], ends[at + 1] - root[wrong]
+    return place, below, above
+
+
+def _runs(first: NDArray[np.uint8], steps: list[Indices], num: int) -> NDArray[np.uint8]:
     """Rows of ``num`` masks that begin with ``first`` and flip a bit at each step.
 
-    ``steps`` (row, step) are ascending: the place in the row, and the bit in the lowest bits.
+    A step (row,) has the place in the row, and the bit in its lowest bits. Runs of eight masks at a time are
+    laid out first, then come the steps within eight.
     """
-    place, bit = steps >> len(CONDITIONS), steps & ALL
-    n, k = steps.shape
-    values, ends = np.empty((n, k + 1), np.uint8), np.empty((n, k + 2), np.intp)
-    values[:, 0], values[:, 1:] = first, np.left_shift(1, bit)
-    ends[:, 0], ends[:, 1:-1], ends[:, -1] = 0, place, num
-    np.bitwise_xor.accumulate(values, axis=1, out=values)
-    return np.repeat(values.ravel(), np.diff(ends, axis=1).ravel()).reshape(n, num)
+    number = -(-num // 8)
+    words = _words(first, steps, number)
+    flat, begins = words.reshape(-1), np.arange(0, words.size, number)
+    for step in steps:
+        place = step >> len(CONDITIONS)
+        some = np.flatnonzero((place & 7 > 0) & (place < num))
+        place = place[some]
+        at, bit = begins[some] + (place >> 3), (step[some] & ALL).view(np.uint64)
+        flat[at] ^= _FROM[place & 7] * bit
+    return np.ascontiguousarray(words.view(np.uint8)[:, :num])
+
+
+def _words(first: NDArray[np.uint8], steps: list[Indices], number: int) -> NDArray[np.uint64]:
+    """The same in words of eight equal masks, in which a step is that of the next whole one."""
+    rows = [step + (7 << len(CONDITIONS)) for step in steps]
+    for last in range(1, len(rows)):
+        for k in range(last, 0, -1):
+            a, b = rows[k - 1], rows[k]
+            rows[k - 1], rows[k] = np.minimum(a, b), np.maximum(a, b)
+    values = np.empty((len(first), len(rows) + 1), np.uint64)
+    counts = np.empty(values.shape, np.intp)
+    values[:, 0], begin = first, np.zeros(len(first), np.intp)
+    for k, step in enumerate(rows):
+        end = np.minimum(step >> len(CONDITIONS) + 3, number)
+        np.subtract(end, begin, out=counts[:, k])
+        np.bitwise_xor(values[:, k], (step & ALL).view(np.uint64), out=values[:, k + 1])
+        begin = end
+    np.subtract(number, begin, out=counts[:, -1])
+    values *= _FROM[0]
+    return np.repeat(values.ravel(), counts.ravel()).reshape(-1, number)

@@ -152,7 +152,7 @@ def compute(tile: Tile) -> Finished:
     """
     keep_heap()
     whole = tile.table()
-    table, exact = whole.value, critical(whole)
+    table, exact = whole.value, critical(whole, rough=not tile.lowest)
     mask = violated_between(table, exact, tile.V)
     agreement = check(table, exact, mask, tile.V, tile.above)
     if agreement.largest > AGREEMENT:

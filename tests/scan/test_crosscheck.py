@@ -15,7 +15,7 @@ from bikestab.scan.agreement import AGREEMENT, Agreement
 from bikestab.scan.crosscheck import check
 from bikestab.scan.signs import violated_between
 from bikestab.speeds import critical_speeds, intervals_of
-from tests.onecell import table_of
+from tests.onecell import table_of, with_speeds
 from tests.strategies import machines
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
@@ -37,7 +37,7 @@ def checked(table, exact=None, V=V):
 def with_roots(table, name, change):
     """The critical speeds of a table with those of one condition changed."""
     exact = critical(table)
-    return exact._replace(speeds={**exact.speeds, name: change(exact.speeds[name])})
+    return with_speeds(exact, {name: change(exact.speeds[name])})
 
 
 # --- agreement
@@ -132,7 +132,7 @@ def pair(width):
 def of_p4(table):
     """The table's critical speeds, of p4 alone."""
     exact = critical(table)
-    return exact._replace(speeds={n: r if n == "p4" else r[:0] for n, r in exact.speeds.items()})
+    return with_speeds(exact, {n: r[:0] for n, r in exact.speeds.items() if n != "p4"})
 
 
 @pytest.mark.parametrize(("width", "loose"), [(1e-3, 0), (1e-5, 0), (1e-6, 2), (1e-7, 2)])

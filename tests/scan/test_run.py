@@ -23,6 +23,7 @@ from bikestab.scan.plan import Plan
 from bikestab.scan.run import run_scan
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import critical_speeds, intervals_of
+from tests.onecell import with_speeds
 from tests.scans import config_of, files, load
 
 pytestmark = pytest.mark.usefixtures("in_an_empty_folder", "small_tiles")
@@ -63,7 +64,7 @@ def test_tiles_leave_no_trace(shape):
 
 @pytest.mark.parametrize("more", ["", "delta: 2\n", "bicycle: kooijman2011\n"])
 def test_the_size_of_the_tiles_leaves_no_trace(more, monkeypatch):
-    """Every dataset of the volume is the same to the bit, the sheets too, and what is said of the check."""
+    """Every dataset of the volume is the same to the bit, the sheets too, and the check finds the same."""
     config = config_of((45, 40, 70), more=more)
     whole = run_scan(config)
     with h5py.File(whole.path) as file:
@@ -75,7 +76,9 @@ def test_the_size_of_the_tiles_leaves_no_trace(more, monkeypatch):
         with h5py.File(result.path) as file:
             for name, data in expected.items():
                 assert file["boundary"][name][()].tobytes() == data
-        assert result.agreement[:4] == whole.agreement[:4]
+        for is_, was in zip(result.agreement[:4], whole.agreement[:4], strict=True):
+            # above the lowest tile undamped speeds are those of double precision, with other last digits
+            assert is_ == pytest.approx(was, abs=0 if more.startswith("delta") else 1e-12)
         assert result.bracketed == whole.bracketed
         assert result.stable_points == whole.stable_points
 
@@ -127,11 +130,11 @@ def test_a_disagreement_is_an_error(factor, message, at, monkeypatch):
     """The tiles that were finished before are kept."""
     calls = []
 
-    def off(table):
+    def off(table, rough):
         calls.append(table)
-        exact = critical(table)
-        return exact._replace(
-            speeds={name: V * (factor if len(calls) > at else 1) for name, V in exact.speeds.items()}
+        exact = critical(table, rough=rough)
+        return with_speeds(
+            exact, {name: V * (factor if len(calls) > at else 1) for name, V in exact.speeds.items()}
         )
 
     monkeypatch.setattr(import_module("bikestab.scan.tile"), "critical", off)

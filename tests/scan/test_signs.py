@@ -9,7 +9,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.critical import critical
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, conditions, violated
-from bikestab.scan.signs import ALL, NEAR, violated_between
+from bikestab.scan.signs import ALL, NEAR, _runs, violated_between
 from tests.onecell import table_of
 from tests.strategies import lams, machines, sigmas
 
@@ -37,12 +37,14 @@ def both(table, V):
     """The mask by either way, and where a condition that is not zero to rounding has two signs."""
     V = np.asarray(V, float)
     runs, values = violated_between(table, critical(table), V), conditions(table[..., np.newaxis], V)
+    rough = violated_between(table, critical(table, rough=True), V)
     points = violated(values)
     p0, p1, p2, p3, p4, _ = conditions(np.abs(table)[..., np.newaxis], V)
     sizes = [p0, p1, p2, p3, p4, p1 * (p2 * p3 + p4 * p1) + p0 * p3**2]
     wrong = np.zeros(runs.shape, bool)
     for bit, (value, size) in enumerate(zip(values, sizes, strict=True)):
         wrong |= (((runs ^ points) >> bit) & 1 == 1) & ~(np.abs(value) <= NO_SIGN * size)
+        wrong |= (((rough ^ points) >> bit) & 1 == 1) & ~(np.abs(value) <= NO_SIGN * size)
     assert runs.dtype == np.uint8
     assert runs.shape == (table.shape[-1], len(V))
     return runs, points, wrong
@@ -82,6 +84,36 @@ def test_random_machines(machine, lam, sigma, start, step, num):
     table = characteristic_table(Bicycle.from_mapping(machine), np.array(lam), sigma)
     _, _, wrong = both(table, start + step * np.arange(num))
     assert not wrong.any()
+
+
+def test_rough_speeds_are_as_near_as_they_say():
+    for bicycle in (DIKAREV, MEIJAARD):
+        table = box(bicycle, 40)
+        fine, rough = critical(table).zeros, critical(table, rough=True).zeros
+        for name in CONDITIONS:
+            V, known = rough[name].V, rough[name].sure
+            np.testing.assert_array_equal(np.isnan(V[:, known]), np.isnan(fine[name].V[:, known]))
+            assert not np.any(
+                np.abs(V - fine[name].V)[:, known] > (rough[name].radius + fine[name].radius)[:, known]
+            )
+            assert known.mean() > 0.99
+            if len(V):
+                assert np.nanmedian(rough[name].radius / V) < 1e-13
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(st.data())
+def test_runs_are_what_their_steps_say(data):
+    num, rows = data.draw(st.integers(1, 70)), data.draw(st.integers(1, 5))
+    places = data.draw(st.lists(st.lists(st.integers(0, num), min_size=rows, max_size=rows), max_size=7))
+    bits = [np.uint8(1 << data.draw(st.integers(0, 5))) for _ in places]
+    first = np.arange(rows, dtype=np.uint8)
+    steps = [np.array(place, np.intp) << 6 | bit for place, bit in zip(places, bits, strict=True)]
+    expected = np.repeat(first[:, np.newaxis], num, axis=1)
+    for place, bit in zip(places, bits, strict=True):
+        for row, start in zip(expected, place, strict=True):
+            row[start:] ^= bit
+    np.testing.assert_array_equal(_runs(first, steps, num), expected)
 
 
 # --- speeds at and around the roots

@@ -18,6 +18,7 @@ from bikestab.scan.sheets import critical_roots, most_roots
 from bikestab.scan.tile import Columns, Tile, compute
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
+from tests.onecell import with_speeds
 
 DIKAREV, MEIJAARD = Bicycle.preset("dikarev1981"), Bicycle.preset("meijaard2007")
 FIELDS = ("stable", "violated", "growth_rate", *CONDITIONS)
@@ -141,9 +142,9 @@ def test_what_is_bundled_can_be_unbundled(chunks):
     ],
 )
 def test_wrong_exact_speeds_are_an_error(factor, message, monkeypatch):
-    def off(table):
-        exact = critical(table)
-        return exact._replace(speeds={name: V * factor for name, V in exact.speeds.items()})
+    def off(table, rough):
+        exact = critical(table, rough=rough)
+        return with_speeds(exact, {name: V * factor for name, V in exact.speeds.items()})
 
     monkeypatch.setattr(import_module("bikestab.scan.tile"), "critical", off)
     with pytest.raises(ScanError, match=f"{message}.*please report this with the config"):
