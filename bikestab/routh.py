@@ -53,11 +53,6 @@ def conditions(table: Floats, V: ArrayLike) -> Conditions:
     return _with_hurwitz3(*coefficients_at(table, V))
 
 
-def conditions_at_rest(table: Floats) -> Conditions:
-    """The same at V = 0."""
-    return _with_hurwitz3(*coefficients_at(table, 0.0))
-
-
 def _with_hurwitz3(p0: Floats, p1: Floats, p2: Floats, p3: Floats, p4: Floats) -> Conditions:
     hurwitz3 = p2 * p3
     hurwitz3 -= p4 * p1

@@ -190,6 +190,12 @@ def test_the_sign_of_a_coefficient_that_cancels_is_not_certain(k, power):
     assert (stable.item(), certain.item()) == (k < 3, k < 3)
 
 
+def test_where_one_sign_says_no_the_others_need_not_be_certain():
+    """p3 = V − 2 is zero in the middle of 1 < V < 3, where hurwitz3 = 1 − (V − 2)² > 0; p4 = −1."""
+    found = intervals_of(table_of({(0, 0): 1, (1, 0): 1, (3, 1): 1, (3, 0): -2, (4, 0): -1}))
+    assert (found.number, found.marginal) == (0, 0)
+
+
 def test_an_ordinary_answer_is_certain_and_has_narrow_bounds():
     bicycle = Bicycle.preset("dikarev1981")
     found = intervals_of(characteristic_table(bicycle, 0.2, 0.08))

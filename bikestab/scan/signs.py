@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from bikestab.critical import Critical
 from bikestab.model import Floats
 from bikestab.rounding import NO_SIGN
-from bikestab.routh import CONDITIONS, conditions, conditions_at_rest, violated
+from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scan.agreement import size_of_terms
 
 ALL = (1 << len(CONDITIONS)) - 1
@@ -45,7 +45,7 @@ def violated_between(table: Floats, critical: Critical, V: Floats) -> NDArray[np
                 close.append((cell, place[cell] - (below[cell] < above[cell])))
     mask = _runs(first, steps, len(V))
     if V[0] == 0:
-        mask[:, 0] = violated(conditions_at_rest(table))
+        mask[:, 0] = violated(conditions(table, 0.0))
     if close:
         cell, place = np.concatenate(close, axis=1)
         mask[cell, place] = violated(conditions(table[..., cell], V[place]))
