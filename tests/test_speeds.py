@@ -190,6 +190,15 @@ def test_the_sign_of_a_coefficient_that_cancels_is_not_certain(k, power):
     assert (stable.item(), certain.item()) == (k < 3, k < 3)
 
 
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+def test_the_signs_of_coefficients_with_a_part_of_the_inverse_speed(k):
+    """1 − 2/V at V = 4 and V = 1."""
+    table = np.zeros((5, 5, 1))
+    table[:, 0], table[k, 4] = 1.0, -2.0
+    stable, certain = _others_positive(cells_of(table), np.array([0, 0]), np.array([4.0, 1.0]))
+    assert (stable.tolist(), certain.tolist()) == ([True, k == 2], [True, True])
+
+
 def test_where_one_sign_says_no_the_others_need_not_be_certain():
     """p3 = V − 2 is zero in the middle of 1 < V < 3, where hurwitz3 = 1 − (V − 2)² > 0; p4 = −1."""
     found = intervals_of(table_of({(0, 0): 1, (1, 0): 1, (3, 1): 1, (3, 0): -2, (4, 0): -1}))
