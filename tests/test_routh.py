@@ -16,8 +16,10 @@ from bikestab.routh import (
     conditions,
     stable,
     violated,
+    without_noise,
 )
 from bikestab.speeds import intervals_of
+from bikestab.twofold import Twofold
 from tests.strategies import lams, machines, meijaard_machines, sigmas, speeds
 
 # LAPACK's eigenvalues belong to a matrix wrong by some ε ρ (ρ the largest eigenvalue). A simple one so
@@ -116,6 +118,18 @@ def test_condition_polynomials_of_exact_cancellation(a2, b2, k):
     table[4, 0], table[3, 1], table[2, 0], table[1, 1], table[0, 0] = 1, k, a2 + b2, a2 * k, a2 * b2
     assert condition_polynomials(table)["hurwitz3"].tolist() == [0] * 10
     assert intervals_of(table).number == 0
+
+
+def test_what_rounding_leaves_of_the_first_coefficients_is_no_number():
+    """Three of V³ hurwitz3, where there is V^−1; those behind stay as they are."""
+    noise = Twofold(np.array([1e-30, 1.0]), np.array([1e-50, 1e-20]), np.full(2, 4.0))
+    found = without_noise([noise, None, noise, noise])
+    for settled in (found[0], found[2]):
+        np.testing.assert_array_equal(
+            (settled.value, settled.rest, settled.size), [[0, 1], [0, 1e-20], [0, 4]]
+        )
+    assert found[1] is None
+    assert found[3] is noise
 
 
 @pytest.mark.parametrize("V", [2.5, np.array([0.5, 2.5]), np.ones((3, 1, 1))])
