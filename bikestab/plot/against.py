@@ -9,6 +9,7 @@ from matplotlib.patches import Patch
 
 from bikestab.against import Against
 from bikestab.modenames import OSCILLATING
+from bikestab.plot.axes import ticks_inside
 from bikestab.plot.growth import plain_ticks
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
@@ -51,7 +52,7 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     plain_ticks(ax)
     ax.set_xlabel(f"{found.name} [{unit}]")
     ax.set_ylabel("eigenvalue [s⁻¹]  (logarithmic beyond ±1)")
-    ax.tick_params(direction="in", top=True, right=True)
+    ticks_inside(ax)
     handles: list[Artist] = [*drawn, entry("real part", color="0.3")]
     handles += [entry("|imaginary part|", color="0.3", ls=DASHES)] if oscillates else []
     if found.stable:

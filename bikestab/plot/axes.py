@@ -66,6 +66,11 @@ def label_axes(ax: Axes, x: str, y: str, wheelbase: float | None) -> None:
         right.set_ylabel("trail [m]")
 
 
+def ticks_inside(ax: Axes) -> None:
+    """Ticks on all four sides, with numbers so far away that none meets another at a corner."""
+    ax.tick_params(direction="in", top=True, right=True, pad=4.5)
+
+
 def remarks(bicycle: Bicycle, model: Model, varied: Collection[str] = ()) -> str:
     """The end of a title: what is unusual about damping, gains, unless they are ``varied``, and model."""
     damping = f", δ = {bicycle.delta:g} kg m²/s" if bicycle.delta and "delta" not in varied else ""

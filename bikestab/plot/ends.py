@@ -9,6 +9,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
@@ -36,7 +37,7 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "
     top = _BEYOND * max((V for V in ends if V is not None), default=10.0)
     figure = Figure(figsize=(6.2, 4.4 if axis else 1.6 + 0.42 * max(len(machines), 3)), layout="constrained")
     ax = figure.add_subplot()
-    ax.tick_params(direction="in", top=True, right=True)
+    ticks_inside(ax)
     if axis:
         _over(ax, machines, axis, lines, top)
         ax.set_xlabel(label or AXES[axis], parse_math=False)

@@ -9,6 +9,7 @@ from matplotlib.lines import Line2D
 
 from bikestab.design.best import Best
 from bikestab.design.criteria import Wanted
+from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title
 from bikestab.plot.lines import legend_below
 from bikestab.plot.settings import own_settings
@@ -38,7 +39,7 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]]) -> Figure:
     ax.set_xlabel(f"width of the stable interval up to {machines[0][1].V_max:g} m/s [m/s]  (wider →)")
     ax.set_ylabel("growth rate where it is judged [s⁻¹]  (↓ decays faster)")
     ax.set_xlim(left=0)
-    ax.tick_params(direction="in", top=True, right=True)
+    ticks_inside(ax)
     x, y = zip(*ends, strict=True)
     label_right(ax, names, x, y, [line.color for line in lines])
     star = Line2D([], [], marker="*", ms=12, color="0.6", mec="black", ls="", label="own design")

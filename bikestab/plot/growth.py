@@ -12,6 +12,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import Model, exact_table
+from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import label_right, lines_for
@@ -60,7 +61,7 @@ def growth_axes(ax: Axes, machines: Sequence[Curve], start: float, stop: float) 
     plain_ticks(ax)
     ax.set_xlabel("speed V [m/s]")
     ax.set_ylabel(f"growth rate [s⁻¹]  (scale logarithmic beyond ±{_LINEAR:g})")
-    ax.tick_params(direction="in", top=True, right=True)
+    ticks_inside(ax)
     label_right(ax, [name for name, *_ in machines], [stop] * len(ends), ends, [line.color for line in lines])
     set_title(ax, "Largest real part of the eigenvalues; thick below zero: stable")
 

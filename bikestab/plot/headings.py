@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
+from itertools import takewhile
 from typing import Any
 
 from matplotlib import font_manager
@@ -41,7 +42,11 @@ def _rows(line: str, width: int) -> list[str]:
     line = re.sub(
         r" = |(?<=\d) (?=[a-z])|(?<=[a-z]) (?=[a-z]+²)", lambda gap: gap[0].replace(" ", _KEPT), line
     )
+    line = re.sub(r"\([^()]{1,30}\)", lambda words: words[0].replace(" ", _KEPT), line)
     rows = textwrap.wrap(line, width, max_lines=_ROWS, placeholder=" …")
+    if len(textwrap.wrap(line, width)) == len(rows):  # nothing is cut: rows about as long as each other
+        narrower = (textwrap.wrap(line, less) for less in range(width, 0, -1))
+        *_, rows = takewhile(lambda wrapped: len(wrapped) == len(rows), narrower)
     return [row.replace(_KEPT, " ") for row in rows] or [""]
 
 

@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from bikestab.bicycle import Bicycle
-from bikestab.model import Model, exact_table
+from bikestab.model import Floats, Model, exact_table
 from bikestab.modes import Modes, follow
-from bikestab.plot.axes import HALO, remarks
+from bikestab.plot.arranged import arrange_plane
+from bikestab.plot.axes import HALO, remarks, ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
-from bikestab.plot.modes import STYLES
+from bikestab.plot.modes import BAND, STYLES
+from bikestab.plot.placing import Room, beside
 from bikestab.plot.settings import own_settings
 
 _SAMPLES = 1201
 _MARKS = 11  # speeds that are written, at most
+_DOTS = 5.0  # points between dots of one curve, at least
+_ARROWS = 90.0  # points along a curve between its arrowheads, and twice as much as before the first
+_SHORT = 24.0  # of a curve without one
+_ABOVE = [(0, 1), (0, -1), (0.6, 1), (-0.6, 1), (0.6, -1), (-0.6, -1), (1, 1), (-1, 1)]  # of real ones
+_SIDES = [(1, 1), (1, 0), (1, -1), (0, 1), (0, -1), (-1, 1), (-1, 0), (-1, -1)]
 
 
 @own_settings()
@@ -29,56 +40,103 @@ def draw_locus(
     near = np.outer(met, 1 + np.array([-1e-4, -1e-6, -1e-9, 1e-9, 1e-6, 1e-4])).ravel()
     V = np.union1d(np.linspace(start, stop, _SAMPLES), near[(near > start) & (near < stop)])
     modes = follow(table, V)
-    figure = Figure(figsize=(5.6, 5.0), layout="constrained")
+    figure = Figure(figsize=(5.6, 5.0))
     ax = figure.add_subplot()
     s = modes.eigenvalues
     growth = s.real.max(axis=0)
     left = max(float(s.real.min()), -3 * max(float(np.abs(growth).max()), float(s.imag.max()), 1.0))
     right = max(float(growth.max()), -0.1 * left)
+    high = 1.08 * max(float(np.abs(s.imag).max()), 0.2 * (right - left))
     ax.set_xlim(left - 0.05 * (right - left), right + 0.08 * (right - left))
-    ax.axvspan(ax.get_xlim()[0], 0, color="#dcebd5", lw=0, zorder=0)
+    ax.set_ylim(-high, high)
+    ax.axvspan(ax.get_xlim()[0], 0, color=BAND, lw=0, zorder=0)
     ax.axvline(0, color="k", lw=0.8, zorder=1)
     ax.axhline(0, color="0.6", lw=0.7, zorder=1)
-    drawn = _branches(ax, modes)
-    _speeds(ax, modes, start, stop)
-    styles = {name: style for name, style in STYLES.items() if name in drawn}
-    dot = entry("speed [m/s]", color="0.2", marker=".", ls="none")
-    legend_below(figure, [*(entry(n, color=c, lw=w) for n, (c, w) in styles.items()), dot])
-    ax.set_xlabel("real part [s⁻¹]  (green: decays)")
+    ax.set_xlabel("real part [s⁻¹]")
     ax.set_ylabel("imaginary part [rad/s]")
-    ax.tick_params(direction="in", top=True, right=True)
-    away = "" if left <= float(s.real.min()) else f"; what is left of {left:.3g} is not shown"
+    ticks_inside(ax)
+    parts = _parts(modes)
+    drawn = {name: STYLES[name] for name in STYLES if name in {name for name, _, _ in parts}}
+    handles: list[Any] = [entry(name, color=color, lw=width) for name, (color, width) in drawn.items()]
+    handles.append(entry("speed [m/s]", color="0.2", marker=".", ls="none"))
+    handles.append(Line2D([], [], color="0.2", marker=">", ms=6, ls="none", label="faster"))
+    handles.append(Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="dies out"))
+    away = "" if left <= float(s.real.min()) else f"; left of {left:.3g} not shown".replace("-", "−")
     words = f"λ = {lam:.4g} rad, σ = {sigma:.4g}{remarks(bicycle, model)}{away}"
     set_title(ax, f"{short(bicycle.name)}: root locus for {start:g} to {stop:g} m/s", words)
+    arrange_plane(figure, ax, None, legend_below(figure, handles, handlelength=2))
+    room = Room(ax)
+    room.curve([0, 0], ax.get_ylim())
+    for name, s_part, _ in parts:
+        color, width = STYLES[name]
+        ax.plot(s_part.real, s_part.imag, color=color, lw=width, solid_capstyle="butt")
+        room.curve(s_part.real, s_part.imag)
+    dots = _dots(ax, room, parts, start, stop)
+    for _, s_part, _ in parts:
+        _arrowheads(ax, room, s_part)
+    style: dict[str, Any] = {"size": 8, "path_effects": HALO, "zorder": 5}
+    for V_dot, s_dot in dots:
+        sides = _SIDES if s_dot.imag else _ABOVE
+        beside(room, ax, f"{V_dot:g}", s_dot.real, s_dot.imag, sides=sides, **style)
     return figure
 
 
-def _branches(ax: Axes, modes: Modes) -> set[str]:
-    """Each branch in the style of its names; the names."""
-    for s, names in zip(modes.eigenvalues, modes.names, strict=True):
-        for part in np.split(np.arange(len(names)), np.flatnonzero(names[1:] != names[:-1]) + 1):
-            color, width = STYLES[str(names[part[0]])]
-            ax.plot(s.real[part], s.imag[part], color=color, lw=width)
-    return set(modes.names.ravel().tolist())
+def _parts(modes: Modes) -> list[tuple[str, Any, Floats]]:
+    """Each branch cut where its name changes: name, eigenvalues, speeds."""
+    return [
+        (str(names[part[0]]), s[part], modes.V[part])
+        for s, names in zip(modes.eigenvalues, modes.names, strict=True)
+        for part in np.split(np.arange(len(names)), np.flatnonzero(names[1:] != names[:-1]) + 1)
+    ]
 
 
-def _speeds(ax: Axes, modes: Modes, start: float, stop: float) -> None:
-    """Dots at round speeds, with numbers where these are apart."""
+def _dots(
+    ax: Axes, room: Room, parts: list[tuple[str, Any, Floats]], start: float, stop: float
+) -> list[tuple[float, complex]]:
+    """Draw dots at round speeds where these are apart on their curve; those above, which get numbers."""
     steps = np.outer(10.0 ** np.arange(-6, 6), [1, 2, 5]).ravel()
     step = steps[np.searchsorted(steps, (stop - start) / (_MARKS - 1))]
     speeds = np.arange(np.ceil(start / step), np.floor(stop / step) + 1) * step
-    (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
-    written: list[tuple[float, float]] = []
-    for V in speeds:
-        k = int(np.argmin(np.abs(modes.V - V)))
-        for s in modes.eigenvalues[:, k]:
-            if not x0 <= s.real <= x1:
+    (x0, x1), _ = ax.get_xlim(), ax.get_ylim()
+    taken = np.empty((0, 2))
+    dots = []
+    for V in (speeds[0], speeds[-1], *speeds[1:-1]) if len(speeds) > 1 else speeds:
+        for _, s, values in parts:
+            k = int(np.argmin(np.abs(values - V)))
+            if abs(values[k] - V) > 0.01 * step or not x0 <= s[k].real <= x1:
                 continue
-            ax.plot(s.real, s.imag, ".", color="0.2", ms=5, zorder=4)
-            at = ((s.real - x0) / (x1 - x0), (s.imag - y0) / (y1 - y0))
-            if s.imag < 0 or any(abs(at[0] - a) < 0.04 and abs(at[1] - b) < 0.035 for a, b in written):
+            place = room.at(s[k].real, s[k].imag)
+            if (np.hypot(*(taken - place).T) < _DOTS).any():
                 continue
-            written.append(at)
-            ax.annotate(
-                f"{V:g}", (s.real, s.imag), (4, 4), textcoords="offset points", fontsize=8, path_effects=HALO
-            )
+            taken = np.vstack([taken, place])
+            ax.plot(s[k].real, s[k].imag, ".", color="0.2", ms=5, zorder=4)
+            room.mark(s[k].real, s[k].imag, 3)
+            if s[k].imag >= 0:
+                dots.append((float(V), complex(s[k])))
+    return dots
+
+
+def _arrowheads(ax: Axes, room: Room, s: Any) -> None:
+    """Arrowheads along a curve, the way it goes as the speed grows."""
+    places = room.at(s.real, s.imag)
+    inside = np.all((places > 4) & (places < room.size - 4), axis=1)
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T) * (inside[1:]))])
+    if length[-1] < _SHORT:
+        return
+    number = max(round(length[-1] / _ARROWS), 1)
+    for at in (np.arange(number) + 0.5) * length[-1] / number:
+        k = int(np.searchsorted(length, at))
+        before, here = places[max(np.searchsorted(length, at - 4) - 1, 0)], places[k]
+        style = {
+            "arrowstyle": "-|>",
+            "color": "0.2",
+            "lw": 0,
+            "shrinkA": 0,
+            "shrinkB": 0,
+            "mutation_scale": 13,
+        }
+        tail, head = (place / room.size for place in (before, here))
+        ax.annotate(
+            "", tuple(head), tuple(tail), "axes fraction", "axes fraction", arrowprops=style, zorder=4
+        )
+        room.box(here, np.array([4.0, 4.0]))

@@ -17,22 +17,22 @@ from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.modenames import OSCILLATING
 from bikestab.modes import Modes, follow
 from bikestab.plot.arranged import arrange_plane
-from bikestab.plot.axes import HALO, head_angle, remarks
+from bikestab.plot.axes import HALO, head_angle, remarks, ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.speeds import KINDS, intervals_of
 
-# dark blue, red and yellow (Tol 2021, high contrast) differ for colour-blind eyes and in greyscale
+# Okabe and Ito (2008), as in pictures of the region and on the page
 STYLES: dict[str, tuple[str, float]] = {
-    "weave": ("#004488", 2.0),
-    "capsize": ("#BB5566", 2.0),
-    "castering": ("#DDAA33", 2.6),
-    "real pair": ("#004488", 1.2),
-    "real": ("#004488", 1.2),
-    "weave 2": ("#004488", 1.2),
-    "capsize 2": ("#BB5566", 1.2),
-    "pair 2": ("#444444", 1.2),
+    "weave": ("#0072b2", 2.0),
+    "capsize": ("#e69f00", 2.0),
+    "castering": ("#009e73", 2.6),
+    "real pair": ("#56b4e9", 2.0),
+    "real": ("#7b5ea7", 2.0),
+    "weave 2": ("#003d5c", 1.4),
+    "capsize 2": ("#d55e00", 1.4),
+    "pair 2": ("#cc79a7", 1.4),
 }
 DASHES = (0, (4.5, 1.8))
 BAND = "#dcebd5"
@@ -83,7 +83,7 @@ def draw_modes(
     ]
     entries = legend_below(figure, handles, handlelength=2.6)
     ax.set_xlabel("speed V [m/s]")
-    ax.tick_params(direction="in", top=True, right=True)
+    ticks_inside(ax)
     title = (
         f"{short(bicycle.name)}: λ = {lam:.6g} rad (head angle {head_angle(lam):.2f}°), "
         f"σ = {sigma:.6g} (trail {sigma * bicycle.c:.4g} m){remarks(bicycle, model)}"

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from matplotlib.figure import Figure
 
 from bikestab.motion import Motion
+from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import label_right
@@ -30,7 +31,7 @@ def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
         ax.set_xlim(float(x[0]), float(x[-1]))
         low, high = ax.get_ylim()
         ax.set_ylim((high, low) if ax is road else (low, high))  # the road as seen from above
-        ax.tick_params(direction="in", top=True, right=True)
+        ticks_inside(ax)
         names, ends, colors = zip(*((text, float(y[-1]), color) for text, y, color in lines), strict=True)
         label_right(ax, names, [float(x[-1])] * len(ends), ends, colors)
     top.set_xlabel("time [s]")

@@ -75,7 +75,7 @@ def test_curves_have_names_and_their_own_lines():
 
 def test_what_is_not_as_asked_is_hatched():
     _, legend = picture(Wanted(Family(MEIJAARD), trail=(0.02, 0.2), judged=SPEED, stable=(5.0, 6.0)))
-    assert "not stable from 5 to 6 m/s or other trail" in legend
+    assert "not stable from 5 to 6 m/s or trail outside 0.02 … 0.2 m" in legend
 
 
 def test_a_picture_of_nothing():

@@ -108,7 +108,7 @@ def test_axes_and_title(draw, fixed, value, x, y, title):
 def test_the_title_names_damping_and_model(tmp_path):
     with Volume(volume_in(tmp_path, "delta: 1.5\nmodel: unrefined\n")) as volume:
         title = draw_slice(volume, "lam", 0.2).axes[0].get_title()
-    assert title.endswith("δ = 1.5 kg m²/s,\nunrefined model")
+    assert title.endswith(",\nδ = 1.5 kg m²/s, unrefined model")
 
 
 def colours(figure):

@@ -1,0 +1,67 @@
+"""In no picture of a command a word covers another or leaves the picture."""
+
+import pytest
+
+from bikestab.design import best, search
+from bikestab.plot import files
+from tests.words import faults
+
+PAPER = "--lam 0.2 --sigma 0.08"
+ALL = "--bicycle meijaard2007 --bicycle sharp1971 --bicycle kooijman2011"
+COMMANDS = [
+    f"eigen {PAPER}",
+    "eigen --bicycle meijaard2007 --V 3:20:2 --delta 1",
+    "eigen --bicycle sharp1971",
+    f"eigen {PAPER} --locus",
+    "eigen --bicycle meijaard2007 --locus",
+    "eigen --bicycle sharp1971 --locus --V 0:60:2",
+    "eigen --bicycle kooijman2011 --locus",
+    "eigen --bicycle meijaard2007 --delta 1 --locus --V 3:8:2",
+    f"eigen {ALL}",
+    "eigen --bicycle meijaard2007 --set mB=60,75,90,110",
+    "eigen --bicycle kooijman2011 --over delta=0:5:101 --at 4.5",
+    "eigen --bicycle sharp1971 --over head_angle=65deg:80deg:21 --at 4.5",
+    "eigen --bicycle meijaard2007 --shapes",
+    "eigen --bicycle sharp1971 --shapes --at 0.1",
+    "eigen --bicycle kooijman2011 --push roll_rate=0.5 --at 4.5",
+    "vrange --bicycle meijaard2007 --trail 0:15cm:16 --sd c=10mm",
+    f"vrange {ALL} --trail 0:15cm:31",
+    f"vrange {ALL}",
+    "vrange --lam 0:0.3:61 --sigma 0.15",
+    "vrange --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg",
+    "vrange --bicycle meijaard2007 --over mB=60:110:11 --over offset=0:60mm:4",
+    "design",
+    "design --bicycle meijaard2007 --delta 1",
+    "design --bicycle sharp1971",
+    "design --stable 4:6 --V 4:6",
+    "design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5",
+    "design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm",
+    f"design {ALL}",
+    "design --bicycle meijaard2007 --free trail=2cm:15cm --free mB=60:110 --stable 5:5.4",
+    f"sensitivity {PAPER}",
+    "sensitivity --bicycle meijaard2007 --bicycle sharp1971",
+    "compare meijaard2007 kooijman2011",
+    "compare dikarev1981 meijaard2007",
+]
+
+
+@pytest.fixture
+def figures(monkeypatch):
+    """The figures that commands draw, instead of their files."""
+    drawn = []
+    monkeypatch.setattr(files, "save", lambda figure, path: drawn.append(figure))
+    return drawn
+
+
+@pytest.fixture(autouse=True)
+def coarse(monkeypatch):
+    monkeypatch.setattr(best, "GRID", 31)
+    monkeypatch.setattr(search, "ROUNDS", 12)
+    monkeypatch.setattr(search, "ROUNDS_TOGETHER", 6)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_words_stand_apart(bikestab, figures, command):
+    code, _, err = bikestab(*command.split(), "-o", "a.png")
+    assert code == 0, err
+    assert faults(figures[0]) == []
