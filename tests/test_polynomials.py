@@ -29,6 +29,7 @@ def test_values_slopes_and_shifts(degree):
     x = X.ravel()
     expected = [p(at) for p, at in zip(each(c), x, strict=True)]
     np.testing.assert_allclose(polynomials.value(c, X).ravel(), expected, rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(polynomials.value(c, np.zeros(())), c[0])
     slopes = [p.deriv()(at) for p, at in zip(each(c), x, strict=True)]
     derivative = polynomials.derivative(c)
     assert len(derivative) == max(1, degree)

@@ -120,6 +120,13 @@ def test_condition_polynomials_of_exact_cancellation(a2, b2, k):
     assert intervals_of(table).number == 0
 
 
+def test_coefficients_in_proportion_to_the_inverse_speed_where_some_cells_have_none():
+    table = np.zeros((5, 5, 3))
+    table[:, 0], table[1, 4] = 2.0, [0, 3, -3]
+    np.testing.assert_array_equal(coefficients_at(table, 6.0), [[2.0] * 3, [2, 2.5, 1.5], *[[2.0] * 3] * 3])
+    np.testing.assert_array_equal(coefficients_at(table, 0.0)[1], [2, np.inf, -np.inf])
+
+
 def test_what_rounding_leaves_of_the_first_coefficients_is_no_number():
     """Three of V³ hurwitz3, where there is V^−1; those behind stay as they are."""
     noise = Twofold(np.array([1e-30, 1.0]), np.array([1e-50, 1e-20]), np.full(2, 4.0))

@@ -3,7 +3,8 @@
 A mutant is one operator, comparison, sign or number of a module changed. Each is tried in a fork of this
 process, which has everything imported but bikestab itself: the tests that noticed the most before first, then
 the shortest. It is noticed where a test fails, or where all of them take more than SECONDS of processor time;
-others are told, with the line as Python writes it. More mutants of the same seed are the fewer ones first.
+others are told, with the line as Python writes it. Those of ``equal_mutants.txt`` change no answer, and
+are left out. More mutants of a seed are the fewer ones first. An interrupt ends the run with its counts.
 """
 
 import ast
@@ -23,6 +24,7 @@ import pytest
 from hypothesis import Phase, settings
 
 ROOT = Path(__file__).parents[2]
+EQUAL = Path(__file__).with_name("equal_mutants.txt")
 SECONDS = 90
 REWRITTEN = "ignore::pytest.PytestAssertRewriteWarning"  # of what is imported before it is
 TESTS = {
@@ -148,21 +150,32 @@ def main(number=10_000, seed=0):
     texts = {name: (ROOT / f"bikestab/{name}.py").read_text("utf-8") for name in TESTS}
     every = [(name, *mutant) for name in TESTS for mutant in mutants(texts[name])]
     drawn, counts = random.Random(seed).sample(every, len(every))[:number], Counter()
+    equal = {line for line in EQUAL.read_text("utf-8").splitlines() if not line.startswith("#")}
+    with suppress(KeyboardInterrupt):
+        _try(drawn, texts, equal, counts)
+    for name in TESTS:
+        noticed, left, same = (counts[name, what] for what in ("noticed", "not noticed", "equal"))
+        print(f"{name}: {noticed} noticed, {left} not noticed, {same} equal")
+    tried, used = sum(counts.values()), sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+    print(f"all: {len(every)} mutants, {tried} tried in {used:.0f} s of processor time")
+
+
+def _try(drawn, texts, equal, counts):
+    """Count by module and end, and tell of those that are not noticed."""
+    plain = {name: ast.unparse(ast.parse(text)) for name, text in texts.items()}
     times, kills = _as_it_stands()
     for name, line, text in drawn:
+        difference = _difference(plain[name], text)
+        if f"{name}: {difference}" in equal:
+            counts[name, "equal"] += 1
+            continue
         answer = _in_a_fork(_mutant, name, text, [*TESTS[name], *SHARED], Order(times, kills))
         found = answer is None or bool(answer[0])
-        counts[name, found] += 1
+        counts[name, "noticed" if found else "not noticed"] += 1
         if answer:
             kills[answer[1]] += 1
         if not found:
-            before = ast.unparse(ast.parse(texts[name]))
-            print(f"not noticed: {name}.py, line {line}: {_difference(before, text)}", flush=True)
-    for name in TESTS:
-        tried = counts[name, True] + counts[name, False]
-        print(f"{name}: {counts[name, True]} of {tried} noticed")
-    used = sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
-    print(f"all: {len(every)} mutants, {len(drawn)} tried in {used:.0f} s of processor time")
+            print(f"not noticed: {name}.py, line {line}: {difference}", flush=True)
 
 
 def _as_it_stands():
