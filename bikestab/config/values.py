@@ -109,7 +109,7 @@ T = TypeVar("T")
 class Strict(BaseModel):
     """Keys with values that do not change, and no others."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, defer_build=True)
 
 
 def increasing(values: list[float]) -> list[float]:

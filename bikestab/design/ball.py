@@ -15,19 +15,22 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linprog
 
 from bikestab.bicycle import Bicycle
 from bikestab.design.around import around, values_around
 from bikestab.design.rays import FARTHEST, first_ends
 from bikestab.draws import evenly
 from bikestab.errors import InputError
+from bikestab.lean import lean_numpy
 from bikestab.limits import MOST_TRAIL
 from bikestab.machines import Machines, standard_normal
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import conditions
 from bikestab.speeds import intervals_of
 from bikestab.variants import check_names, own_value
+
+with lean_numpy():
+    from scipy.optimize import linprog
 
 _RAYS, _MANY = 32, 1024  # directions that are tried while the centre moves, and at its end
 _CONTACTS, _APART = 12, 0.95  # nearest ends that are refined together, and the cosine of what is apart

@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import NamedTuple, TypedDict
 
 import numpy as np
-from scipy.optimize import differential_evolution
 
 from bikestab.aside import meanwhile
 from bikestab.bicycle import Bicycle
@@ -28,11 +27,15 @@ from bikestab.design.optimum import SHRINKS, VANISHING, finite
 from bikestab.design.polish import better, or_inf, polished
 from bikestab.draws import evenly
 from bikestab.errors import InputError
+from bikestab.lean import lean_numpy
 from bikestab.limits import check_speed
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.records import Design, design_record
 from bikestab.speeds import KINDS
 from bikestab.variants import check_names, check_values, own_value, varied
+
+with lean_numpy():
+    from scipy.optimize import differential_evolution
 
 MOST_FREE = 6
 Range = tuple[float, float]

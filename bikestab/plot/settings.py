@@ -54,6 +54,10 @@ def own_settings() -> Iterator[None]:
     """Within it matplotlib has the settings it comes with."""
     import matplotlib
 
+    ours, now = matplotlib.rcParamsDefault, matplotlib.rcParams
+    if all(now[name] == ours[name] for name in ours if not name.startswith("backend")):
+        yield  # to set them again reads all styles that there are
+        return
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         yield

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.lean import lean_numpy
 from bikestab.model import Floats
 from bikestab.region.curves import Curve
 from bikestab.region.events import Box
@@ -37,7 +38,8 @@ def triangulated(
 
 def by_scipy(points: Floats) -> NDArray[np.integer]:
     """Delaunay's triangles."""
-    from scipy.spatial import Delaunay as Method  # takes longer to import than most meshes to make
+    with lean_numpy():
+        from scipy.spatial import Delaunay as Method  # takes longer to import than most meshes to make
 
     return np.asarray(Method(points.T).simplices)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import logging
 import re
 import threading
@@ -137,6 +136,8 @@ def _client(scheduler: str) -> Iterator[Any]:
 
 def _greet(scheduler: str) -> None:
     """Have a scheduler say who it is, within ANSWER: Dask's client waits for ever for a silent one."""
+    import asyncio  # which takes longer to import than all else here
+
     from distributed import rpc
 
     async def identity() -> None:

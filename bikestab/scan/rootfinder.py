@@ -8,6 +8,8 @@ from importlib import import_module
 from importlib.util import find_spec, module_from_spec
 from typing import Any
 
+from bikestab.lean import lean_numpy
+
 _ROOM = "scipy.optimize"
 
 
@@ -19,7 +21,8 @@ def find_root() -> Callable[..., Any]:
     if _ROOM not in sys.modules and (spec := find_spec(_ROOM)):
         sys.modules[_ROOM] = module_from_spec(spec)  # as yet empty, and nothing in it is run
         try:
-            return import_module(f"{_ROOM}._elementwise").find_root
+            with lean_numpy():
+                return import_module(f"{_ROOM}._elementwise").find_root
         except (ImportError, AttributeError):  # in another scipy it may be elsewhere
             pass
         finally:

@@ -24,6 +24,7 @@ COMMANDS = (
 )  # fmt: skip
 COMPLETE = "_BIKESTAB_COMPLETE"  # set by a shell that wants words
 LEAST_MEMORY = 512 << 20
+_GARBAGE = 20_000  # objects after which it is looked for: imports make many of them, and none is garbage
 _NO_MEMORY = "failed to map segment"  # the loader's words for it
 DEVELOPER = "please report it, with what 'python -X dev -m bikestab ...' shows"
 
@@ -72,6 +73,8 @@ def main(program: str = "bikestab") -> None:
     ``program`` is what was typed to run it.
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices are 4 × 4, and each thread takes 30 MB
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it looks for them in all that is installed
+    gc.set_threshold(_GARBAGE)
     atexit.register(gc.freeze)  # the exit is 10 ms sooner if it looks for no garbage
     if os.environ.get(COMPLETE):
         from click.shell_completion import shell_complete

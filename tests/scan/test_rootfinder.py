@@ -38,3 +38,22 @@ def test_alone():
 
 def test_where_it_is_elsewhere():
     assert output(MOVED) == (["True"], "")
+
+
+LEAN = """
+import sys
+import numpy as np
+from bikestab.lean import lean_numpy
+with lean_numpy():
+    from scipy.spatial import Delaunay
+    kept = np.testing
+print("numpy.testing" in sys.modules, "numpy.f2py" in sys.modules)
+np.testing.assert_equal(1, 1)
+print(kept.assert_equal is np.testing.assert_equal, np.f2py.__name__)
+from scipy.optimize import elementwise
+print(Delaunay(np.array([[0.0, 0], [1, 0], [0, 1]])).simplices.shape)
+"""
+
+
+def test_parts_of_numpy_that_are_left_out_come_when_asked_for():
+    assert output(LEAN) == (["False False", "True numpy.f2py", "(1, 3)"], "")
