@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
+
 from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -16,49 +17,49 @@ from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.modes import BAND, DASHES, STYLES
 from bikestab.plot.settings import own_settings
 
+_WORDS = {"lam": "tilt λ", "sigma": "σ", "delta": "damping δ", "head_angle": "head angle"}
+
 
 @own_settings()
 def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     """A machine by name, at a speed [m/s]; ``unit`` is that of the parameter. Head angles are in degrees."""
+    scale = 1.0
+    words = {"lam": "tilt λ", "sigma": "σ", "delta": "damping δ"}.get(
+        found.name, found.name.replace("_", " ")
+    )
     if found.name == "head_angle":
-        stable = [(float(np.degrees(start)), float(np.degrees(stop))) for start, stop in found.stable]
-        found, unit = found._replace(values=np.degrees(found.values), stable=stable), "°"
+        scale, unit = math.degrees(1), "°"
     figure = Figure(figsize=(5.6, 4.4), layout="constrained")
     ax = figure.add_subplot()
-    x = found.values
-    drawn, oscillates = [], False
-    for mode in STYLES:
-        parts = [modes.eigenvalues[modes.names == mode] for modes in found.modes]
-        if not any(len(part) for part in parts):
-            continue
-        color, width = STYLES[mode]
-        drawn.append(entry(mode, color=color, lw=width))
-        number = 1 if mode in OSCILLATING else max(map(len, parts))
-        for k in range(number):
-            real = [sorted(part.real)[k] if len(part) > k else np.nan for part in parts]
-            ax.plot(x, real, color=color, lw=width)
-        if mode in OSCILLATING:
-            oscillates = True
-            imag = [float(np.abs(part.imag).max()) if len(part) else np.nan for part in parts]
-            ax.plot(x, imag, color=color, lw=width, ls=DASHES)
+    for curve in found.curves:
+        color, width = STYLES[curve.name]
+        ax.plot(scale * curve.x, curve.s.real, color=color, lw=width)
+        if curve.name in OSCILLATING:
+            ax.plot(scale * curve.x, curve.s.imag, color=color, lw=width, ls=DASHES)
+    drawn = {curve.name for curve in found.curves}
     ax.axhline(0, color="k", lw=0.8, zorder=1)
-    ax.set_xlim(x.min(), x.max())
-    for start, stop in found.stable:
+    low, high = scale * float(found.values.min()), scale * float(found.values.max())
+    ax.set_xlim(low, high)
+    stable = [(scale * start, scale * stop) for start, stop in found.stable]
+    for start, stop in stable:
         ax.axvspan(start, stop, color=BAND, lw=0, zorder=0)
         for end in (start, stop):
-            if x.min() < end < x.max():
+            if low < end < high:
                 ax.axvline(end, color="0.3", lw=0.9, ls=":", zorder=1)
     ax.set_yscale("asinh", linear_width=1.0)
     plain_ticks(ax)
-    ax.set_xlabel(f"{found.name} [{unit}]")
+    ax.set_xlabel(f"{words} [{unit}]")
     ax.set_ylabel("eigenvalue [s⁻¹]  (logarithmic beyond ±1)")
     ticks_inside(ax)
-    handles: list[Artist] = [*drawn, entry("real part", color="0.3")]
-    handles += [entry("|imaginary part|", color="0.3", ls=DASHES)] if oscillates else []
-    if found.stable:
+    handles: list[Artist] = [
+        entry(name, color=color, lw=width) for name, (color, width) in STYLES.items() if name in drawn
+    ]
+    handles.append(entry("real part", color="0.3"))
+    handles += [entry("|imaginary part|", color="0.3", ls=DASHES)] if drawn & {*OSCILLATING} else []
+    if stable:
         handles.append(Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="stable"))
     legend_below(figure, handles)
-    ends = ", ".join(f"{start:.6g} to {stop:.6g}" for start, stop in found.stable)
-    where = f"stable for {found.name} = {ends} {unit}" if ends else "nowhere stable"
+    ends = ", ".join(f"{start:.6g} to {stop:.6g}" for start, stop in stable)
+    where = f"stable for {words} = {ends} {unit}".replace(" °", "°") if ends else "nowhere stable"
     set_title(ax, f"{short(name)}: eigenvalues at {V:g} m/s", where)
     return figure

@@ -23,6 +23,7 @@ _ROW, _FIRST_ROW = 0.167, 0.12  # of a title
 _ENTRY_ROW, _ENTRIES = 0.209, 0.125  # of a legend, and its margins
 _BAR, _TO_BAR = 0.18, 0.25  # width of a colour bar; from what is left of it
 _TITLE = 6 / 72  # between a title and what is below it
+_LABEL = 0.06  # of axes in three dimensions, whose labels reach below
 _EMPTY = 0.38  # of axes in three dimensions, above the box
 _RIGHT = 3 * _EM  # the numbers of a second axis at the right, which has none before it is drawn
 
@@ -55,7 +56,7 @@ def arrange_plane(figure: Figure, ax: Axes, bar: Axes | None, rows: int, above: 
 def arrange_region(figure: Figure, ax: Axes, rows: int) -> None:
     """Put a box in three dimensions, with a title, and a legend of so many rows into a figure."""
     width, height = figure.get_size_inches()
-    y0 = _legend(rows)
+    y0 = _legend(rows) + _LABEL
     side = min(height - _title(ax) - y0 + _EMPTY, width - 2 * _EDGE)
     ax.set_position(((width - side) / 2 / width, y0 / height, side / width, side / height))
     ax.title.set_y((height - _title(ax) - y0) / side)

@@ -12,6 +12,8 @@ from bikestab.plot.growth import growth_axes
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
 
+_BAR = (1.04, 0, 0.045, 1)  # in the map's axes: left, bottom, width, height
+
 
 @own_settings()
 def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
@@ -22,12 +24,17 @@ def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
     number = bool(curves) + plane
     figure = Figure(figsize=(6.2, 4.4 * max(number, 1)), layout="constrained")
     if curves:
-        growth_axes(figure.add_subplot(number, 1, 1), curves, *box.ends[2])
+        above = figure.add_subplot(number, 1, 1)
+        growth_axes(above, curves, *box.ends[2])
+        for name, side in sides:
+            if not side.design:
+                set_title(above, above.get_title(), f"({name} has no design of its own)")
     if plane:
         ax = figure.add_subplot(number, 1, number)
         apart = np.ma.masked_equal(region.apart.T, 0)
         image = ax.pcolormesh(box.x, box.y, apart, cmap="cividis", shading="nearest", vmin=0, rasterized=True)
-        figure.colorbar(image, ax=ax).set_label("speeds at which exactly one is stable [m/s]")
+        bar = figure.colorbar(image, cax=ax.inset_axes(_BAR))
+        bar.set_label("speeds at which exactly one is stable [m/s]")
         for (name, side), marker in zip(sides, "os", strict=True):
             if place := _place(box, side):
                 ax.plot(*place, marker, ms=8, mfc="white", mec="black", clip_on=False)

@@ -8,6 +8,7 @@ from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title, short
@@ -43,14 +44,21 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "
         ax.set_xlabel(label or AXES[axis], parse_math=False)
     else:
         _bars(ax, machines, lines, top)
-    entries = [entry("V₁", color="0.3"), entry("V₂", color="0.3", lw=0.9)] if axis else []
-    if any("spread" in answer for _, answers in machines for answer in answers):
-        entries.append(entry("90 % of the machines", color="0.3", lw=1, marker="|" if not axis else "_"))
-    if entries:
-        legend_below(figure, entries)
-    whose = f"{short(name)}: stable speeds" if name else "Stable speeds"
+    legend_below(figure, _entries(machines, ends, bool(axis)))
+    whose = name or (machines[0][0] if axis and len(machines) == 1 else "")
+    whose = f"{short(whose)}: stable speeds" if whose else "Stable speeds"
     set_title(ax, whose + ("" if any(V is not None for V in ends) else ": none"))
     return figure
+
+
+def _entries(machines: Sequence[tuple[str, Answers]], ends: Sequence[float | None], over: bool) -> list[Any]:
+    """What the legend says: of bars, whose words are beside them, nothing but of what was drawn at random."""
+    entries: list[Any] = [entry("V₁", color="0.3", lw=2.2), entry("V₂", color="0.3", lw=1)] if over else []
+    if over and None in ends:
+        entries.append(Patch(facecolor="0.85", label="up to the frame: no upper limit"))
+    if any("spread" in answer for _, answers in machines for answer in answers):
+        entries.append(entry("90 % of the machines", color="0.3", lw=1, marker="|"))
+    return entries
 
 
 def _over(
@@ -77,6 +85,8 @@ def _over(
     ax.set_xlim(min(values), max(values))
     ax.set_ylim(0, top)
     ax.set_ylabel("speed V [m/s]")
+    if len(machines) == 1:
+        return  # its name is the title's
     names = [name if x == x else f"{name}: never" for (name, _), (x, _) in zip(machines, last, strict=True)]
     ends = [(max(values), 0.0) if x != x else (x, V) for x, V in last]
     label_right(ax, names, [x for x, _ in ends], [y for _, y in ends], [line.color for line in lines])
@@ -101,7 +111,7 @@ def _runs(answers: Answers) -> list[Run]:
 def _goes_on(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
     inf = math.inf
     overlap = min(before["V2"] or inf, after["V2"] or inf) > max(before["V1"], after["V1"])
-    return overlap and before["lower"] == after["lower"] and (before["V2"] is None) == (after["V2"] is None)
+    return overlap and before["lower"] == after["lower"]
 
 
 def _bars(ax: Axes, machines: Sequence[tuple[str, Answers]], lines: Sequence[Line], top: float) -> None:

@@ -8,14 +8,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bikestab.design.free import Free, FreeBest, FreeDesign
+from bikestab.plot.axes import HALO
+from bikestab.plot.colours import OWN
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
-from bikestab.plot.sidelabels import lines_for
+from bikestab.plot.sidelabels import COLOURS
 from bikestab.variants import parameter_of
 
+# as in pictures of planes of designs
 _MARKS = {"own": "*", "widest": "^", "lowest V1": "v", "fastest decay": "D", "most robust": "o"}
-_ROOM = 0.25  # of the axis, for the words before a bar
+_NAMES = {"own": "own design", "lowest V1": "lowest V₁"}
+_NO_PINKS = (0, 2, 5, 4)
+_ROOM = 0.25  # of the axis, for the words beside a bar
+_ROWS = 0.5  # of a parameter's row, over which its marks are spread so that none hides another
 _BEYOND = 1.1  # where what is unbounded ends in the picture, of the largest end
 
 
@@ -23,15 +29,15 @@ _BEYOND = 1.1  # where what is unbounded ends in the picture, of the largest end
 def draw_free(free: Free, best: FreeBest) -> Figure:
     """A bar of stable speeds for each design, and for each free parameter where in its range they lie."""
     designs = best.designs
-    colours = {name: line.color for name, line in zip(_MARKS, lines_for(len(_MARKS)), strict=True)}
+    colours = dict(zip(_MARKS, (OWN, *(COLOURS[i] for i in _NO_PINKS)), strict=True))
     rows = max(len(designs), 1), len(free.ends)
-    figure = Figure(figsize=(7.2, 2.2 + 0.42 * sum(rows)), layout="constrained")
+    figure = Figure(figsize=(7.2, 2.2 + 0.44 * sum(rows)), layout="constrained")
     above, below = figure.subplots(2, 1, height_ratios=rows)
     _speeds(above, free, designs, colours)
     set_title(above, short(free.bicycle.name) + ("" if designs else ": no design found"))
     _places(below, free, designs, colours)
     marks = [
-        entry(name, color=colours[name], marker=_MARKS[name], ls="", ms=9 if name == "own" else 6)
+        entry(_NAMES.get(name, name), color=colours[name], marker=_MARKS[name], ls="", ms=_size(name))
         for name in designs
     ]
     legend_below(figure, marks)
@@ -47,16 +53,19 @@ def _speeds(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Ma
             ax.annotate("no stable speed", (0, row), (6, 0), textcoords="offset points", va="center")
             continue
         ax.barh(row, (top if V2 is None else V2) - V1, left=V1, height=0.5, color=colours[name], alpha=0.6)
+        end = top if V2 is None else V2
         words = f"{V1:.2f} … {'no upper limit' if V2 is None else f'{V2:.2f}'}"
-        before = _ROOM * top < V1
-        at, shift = (V1, -4) if before else (V1 + 0.5 * ((top if V2 is None else V2) - V1), 0)
-        side = "right" if before else "center"
+        after = end < (1 - _ROOM) * top
+        at, shift, side = (end, 4, "left") if after else (V1, -4, "right")
+        if not after and _ROOM * top > V1:  # a bar from end to end
+            at, shift, side = 0.5 * (V1 + end), 0, "center"
         ax.annotate(
-            words, (at, row), (shift, 0), textcoords="offset points", fontsize=8, va="center", ha=side
-        )
+            words, (at, row), (shift, 0), textcoords="offset points", fontsize=8, va="center", ha=side,
+            path_effects=HALO,
+        )  # fmt: skip
     for V in free.stable or ():
         ax.axvline(V, color="0.2", lw=0.8, ls="--")
-    ax.set_yticks(range(len(designs)), list(designs))
+    ax.set_yticks(range(len(designs)), [_NAMES.get(name, name) for name in designs])
     ax.set_ylim(max(len(designs), 1) - 0.5, -0.5)
     ax.set_xlim(0, top)
     ax.set_xlabel("speed V [m/s]" + ("; dashed: stable as asked" if free.stable else ""))
@@ -65,17 +74,27 @@ def _speeds(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Ma
 def _places(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Mapping[str, str]) -> None:
     """Each parameter's range as a line, from its least to its greatest value."""
     labels = []
+    apart = _ROWS / max(len(designs) - 1, 1)
     for row, (name, (low, high)) in enumerate(free.ends.items()):
         unit = parameter_of(free.bicycle, name).unit
         labels.append(f"{name}: {low:.4g} … {high:.4g} {unit}".removesuffix(" 1"))
         ax.plot([0, 1], [row, row], color="0.7", lw=1, zorder=1)
-        for which, design in designs.items():
+        for i, (which, design) in enumerate(designs.items()):
             share = (design["over"][name] - low) / (high - low) if high > low else 0.5
             if 0 <= share <= 1:  # the bicycle's own may be outside
-                size = 9 if which == "own" else 6
-                ax.plot(share, row, color=colours[which], marker=_MARKS[which], ms=size, ls="", zorder=2)
+                place = row + apart * (i - (len(designs) - 1) / 2)
+                ax.plot(
+                    share, place, color=colours[which], marker=_MARKS[which], ms=_size(which), ls="", zorder=2
+                )
     ax.set_yticks(range(len(labels)), labels, parse_math=False)
     ax.set_ylim(len(labels) - 0.5, -0.5)
     ax.set_xlim(-0.03, 1.03)
     ax.set_xticks([0, 0.5, 1], ["least", "", "greatest"])
+    least, _, greatest = ax.get_xticklabels()
+    least.set_horizontalalignment("left")
+    greatest.set_horizontalalignment("right")
     ax.set_xlabel("where in the range that is searched")
+
+
+def _size(name: str) -> float:
+    return 9 if name == "own" else 6

@@ -44,5 +44,5 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]]) -> Figure:
     label_right(ax, names, x, y, [line.color for line in lines])
     star = Line2D([], [], marker="*", ms=12, color="0.6", mec="black", ls="", label="own design")
     legend_below(figure, [star] if own_drawn else [])
-    set_title(ax, "Fronts between width and decay: no design is both wider and decays faster")
+    set_title(ax, "Width-decay fronts: no other design is better in both")
     return figure

@@ -18,6 +18,7 @@ from bikestab.plot.headings import text_width
 
 # what bounds the stable region, by the condition that is zero there: its name and its line
 EDGES: dict[str, tuple[str, Any]] = {"hurwitz3": ("weave", "-"), "p0": ("capsize", (0, (5, 1.5)))}
+_LONG = 3  # rows of a legend that is set smaller where that halves them
 _SPACING, _TO_TEXT, _MARGIN = 1.6, 0.8, 0.9  # em: of a legend's columns, handles and frame
 
 STRAIGHT: dict[str, Any] = {"color": "0.25", "lw": 1.2, "ls": (0, (7, 2, 1, 2))}  # where the fork is straight
@@ -71,6 +72,9 @@ def legend_below(figure: Figure, handles: Sequence[Artist], **style: Any) -> int
         return 0
     style = {"handlelength": 3, "fontsize": 10, **style}
     columns = _columns(handles, figure.get_figwidth(), style["handlelength"], style["fontsize"])
+    if columns == 1 and len(handles) > _LONG:
+        style |= {"handlelength": 2, "fontsize": 9}
+        columns = _columns(handles, figure.get_figwidth(), 2, 9)
     figure.legend(
         handles=list(handles), loc="outside lower center", ncols=columns, frameon=False,
         columnspacing=_SPACING, **style,

@@ -41,6 +41,7 @@ _TICK = 0.05  # least distance of ticks, as a share of the axis
 _FIRST_NOTE, _NOTE = 8, 13  # points: above the axes, and of each row of text there
 _LETTER = 0.0155  # width of a letter as a share of the picture's, and half the height of a line of text
 _HALF_LINE = 0.026
+_SEEN = 0.015  # of the axes: a curve that can be seen
 
 
 class _Line(NamedTuple):
@@ -228,7 +229,8 @@ def _label_lines(ax: Axes, lines: list[_Line], edges: list[float]) -> list[str]:
             color=_darker(STYLES[lines[i].name][0]), path_effects=HALO,
         )  # fmt: skip
         fixed.append(places[best] + half * np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)]))
-    return [name for name in STYLES if name in {line.name for line in lines} - {n for n, _ in done}]
+    seen = {line.name for line, at in zip(lines, dense, strict=True) if np.ptp(at, axis=0).max() > _SEEN}
+    return [name for name in STYLES if name in seen - {n for n, _ in done}]
 
 
 def _away(places: Floats, points: Floats, half: Floats) -> Floats:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from bikestab.motion import Motion
@@ -12,7 +13,8 @@ from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import label_right
 
-_ROLL, _STEER, _REAR, _FRONT = "#004488", "#BB5566", "#222222", "#997700"
+_REAR, _FRONT = "#0072b2", "#d55e00"  # and of what they do: roll and steer
+_SMALL = 0.5  # rad: of larger angles the linear equations say little
 
 
 @own_settings()
@@ -20,7 +22,7 @@ def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
     """A machine by name, and what pushed it: states by name, in rad and rad/s."""
     figure = Figure(figsize=(6.2, 5.4), layout="constrained")
     top, road = figure.subplots(2, 1)
-    pairs = (("roll", found.states[0], _ROLL), ("steer", found.states[1], _STEER))
+    pairs = (("roll", found.states[0], _REAR), ("steer", found.states[1], _FRONT))
     for ax, x, lines in (
         (top, found.t, pairs),
         (road, found.x, (("rear wheel", found.y, _REAR), ("front wheel", found.y_front, _FRONT))),
@@ -39,7 +41,11 @@ def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
     road.set_xlabel("along the road [m]")
     road.set_ylabel("to the right [m]")
     units = {True: "rad/s", False: "rad"}
-    pushed = ", ".join(f"{key} = {value:g} {units[key.endswith('rate')]}" for key, value in push.items())
-    set_title(top, f"{short(name)} at {found.V:g} m/s after a push: {pushed}")
-    set_title(road, "Paths of the wheels on the road, from above; its two axes have scales of their own")
+    pushed = ", ".join(
+        f"{key.replace('_', ' ')} = {value:g} {units[key.endswith('rate')]}" for key, value in push.items()
+    )
+    large = float(np.abs(found.states[:2]).max()) > _SMALL
+    doubt = [f"beyond some {_SMALL:g} rad the linear equations do not hold"] if large else []
+    set_title(top, f"{short(name)} at {found.V:g} m/s after a push: {pushed}", *doubt)
+    set_title(road, "Paths of the wheels on the road, from above; sideways enlarged")
     return figure

@@ -17,8 +17,10 @@ from bikestab.plot.headings import text_width
 
 AROUND: list[tuple[float, float]] = [
     (1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1),
-    (2, 1), (-2, 1), (2, -1), (-2, -1), (0, 2), (0, -2),
+    (2, 1), (-2, 1), (2, -1), (-2, -1), (0, 2), (0, -2), (0.5, 1), (-0.5, 1), (0.5, -1), (-0.5, -1),
+    (1, 0.5), (-1, 0.5), (1, -0.5), (-1, -0.5),
 ]  # fmt: skip
+_LEAST = (1.0, 0.6, 0.3, 0.0)  # of what is free around words, in halves of their sides
 _STEP = 1.5  # of a curve's points, at most
 _ROW, _GAP = 0.62, 1.5  # half a line of text, in its size; around it
 
@@ -60,9 +62,9 @@ class Room:
     def line(self, line: Line2D) -> None:
         """Keep words off a curve, or off marks, that are drawn already."""
         data = np.asarray(line.get_xydata(), dtype=float)
-        if line.get_marker() == "None":
+        if line.get_linestyle() != "None":
             self.curve(*data.T)
-        else:
+        if line.get_marker() != "None":
             for x, y in data:
                 self.mark(x, y, float(line.get_markersize()))
 
@@ -94,19 +96,26 @@ def half_size(text: str, size: float) -> Floats:
 
 
 def beside(
-    room: Room, ax: Axes, text: str, x: float, y: float, *, size: float, away: float = 3.0,
-    sides: Sequence[tuple[float, float]] = (*AROUND,), **style: Any
-) -> bool:  # fmt: skip
-    """Write words beside a point of the data, on the first of ``sides`` where they cover nothing, if any."""
+    room: Room, ax: Axes, text: str, x: float, y: float, *, size: float, away: Sequence[float] = (3.0,),
+    needed: bool = False, sides: Sequence[tuple[float, float]] = (*AROUND,), **style: Any
+) -> Floats | None:  # fmt: skip
+    """Write words ``away`` from a point of the data, on the first of ``sides`` where they cover nothing.
+
+    Where there is no room they are not written, or, if ``needed``, where they cover little of a curve. The
+    place where they are.
+    """
     half, point = half_size(text, size), room.at(x, y)[0]
-    places = point + np.array(sides) * (half + away)
-    good = np.flatnonzero(room.free(places, half) >= 1)
-    if not len(good):
-        return False
-    place = places[good[0]]
+    places = np.concatenate([point + np.array(sides) * (half + far) for far in away])
+    free = room.free(places, half)
+    good = next(
+        (np.flatnonzero(free >= least) for least in _LEAST if np.any(free >= least)), np.empty(0, int)
+    )
+    if not len(good) or (free[good[0]] < 1 and not needed):
+        return None
+    place = np.asarray(places[good[0]])
     room.box(place, half)
     write(room, ax, text, place, size, **style)
-    return True
+    return place
 
 
 def write(room: Room, ax: Axes, text: str, place: Floats, size: float, **style: Any) -> None:

@@ -98,6 +98,8 @@ def draw_mesh(
         axis.label.set_fontsize(_SIZE)
         axis.set_tick_params(labelsize=_SIZE, pad=0)
         axis.set_major_locator(MaxNLocator(5, prune=prune))  # the first labels of x and y would meet
+    ax.zaxis.set_rotate_label(False)  # which else is read downwards
+    ax.zaxis.label.set_rotation(90)
     ax.view_init(elev=25, azim=-125)
     ax.set_box_aspect(_SCALE, zoom=1)
     if len(mesh.triangles):

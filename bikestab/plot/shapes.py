@@ -11,7 +11,9 @@ from bikestab.motion import Shapes
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
 
-_ROLL, _STEER = "#004488", "#BB5566"  # Tol 2021, high contrast
+_ARROWS = (("roll", "#0072b2", 4.0), ("steer", "#d55e00", 1.8))  # the first is seen under the second
+_HEAD = 14.0  # points
+_RADIUS = 58.0  # points, of a compass
 
 
 @own_settings()
@@ -23,21 +25,22 @@ def draw_shapes(name: str, found: Shapes) -> Figure:
     for place, k in enumerate(shown, 1):
         ax = figure.add_subplot(1, len(shown), place, projection="polar")
         s = found.eigenvalues[k]
-        for phasor, color, text in zip(found.phasors[:, k], (_ROLL, _STEER), ("roll", "steer"), strict=True):
+        for row, (phasor, (text, color, width)) in enumerate(zip(found.phasors[:, k], _ARROWS, strict=True)):
             size, angle = abs(phasor), float(np.angle(phasor))
-            style = {"arrowstyle": "-|>", "color": color, "lw": 2, "shrinkA": 0, "shrinkB": 0}
+            head = min(_HEAD, 0.6 * _RADIUS * size)  # no longer than the arrow
+            style = {"color": color, "lw": min(width, head / 3), "mutation_scale": head, "joinstyle": "miter"}
+            style |= {"arrowstyle": f"-|>,head_width={0.25 + 0.05 * width}", "shrinkA": 0, "shrinkB": 0}
             ax.annotate("", (angle, size), (angle, 0), arrowprops=style)
             words = f"{text} {size:.3g}" + (f", {math.degrees(angle):.0f}°" if abs(angle) > 1e-9 else "")
-            row = 0 if text == "roll" else 1
             ax.text(
                 0.5, -0.12 - 0.12 * row, words.replace("-", "−"), transform=ax.transAxes, color=color,
                 fontsize=9, ha="center", va="center",
             )  # fmt: skip
         ax.set_ylim(0, 1.15)
         ax.set_yticks([0.5, 1], [])
-        ax.set_xticks(np.radians([0, 90, 180, 270]), ["0°", "90°", "180°", ""])
+        ax.set_xticks(np.radians([0, 90, 180, 270]), ["0°", "90°", "", ""])
         ax.tick_params(labelsize=8)
         ax.grid(color="0.85")
-        words = f"{s.real:.3f} ± {s.imag:.3f}i 1/s" if s.imag else f"{s.real:.3f} 1/s"
-        set_title(ax, found.names[k], words, panels=len(shown), fontsize=9)
+        words = f"{s.real:.3f} ± {s.imag:.3f}i s⁻¹" if s.imag else f"{s.real:.3f} s⁻¹"
+        set_title(ax, found.names[k], words.replace("-", "−"), panels=len(shown), fontsize=9)
     return figure

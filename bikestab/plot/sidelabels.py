@@ -10,12 +10,15 @@ from matplotlib.axes import Axes
 
 from bikestab.errors import InputError
 from bikestab.model import Floats
+from bikestab.plot.axes import HALO
 from bikestab.plot.headings import short
+from bikestab.plot.placing import Room, beside
 
 # Tol 2021, bright, without its grey; behind the last the dashes change
 COLOURS = ("#4477AA", "#EE6677", "#228833", "#AA3377", "#CCBB44", "#66CCEE")
 DASHES = ("-", (0, (5, 1.5)), (0, (1, 1.2)), (0, (4, 1.2, 1, 1.2)))
 MOST = len(COLOURS) * len(DASHES)
+_RIGHT = 0.9  # of the axes' width: where what ends is named at their side
 _LINE = 13 / 72  # inches of a line of text
 
 
@@ -38,19 +41,31 @@ def label_right(
 ) -> None:
     """Write each name to the right of the axes, with a line to its curve's end (x, y) in the data.
 
-    The limits and scales of the axes are those that stay.
+    Where that is well within the axes, the name stands beside it. The limits and scales of the axes are those
+    that stay, and all lines are drawn.
     """
     at = (ax.transData + ax.transAxes.inverted()).transform(np.column_stack([x, y]))
     figure: Any = ax.figure
     height = figure.get_figheight() * ax.get_position().height  # before the layout, which changes little
-    places = spread(np.clip(at[:, 1], 0, 1), _LINE / height)
-    for name, end, place, color in zip(names, at, places, colors, strict=True):
+    right = at[:, 0] > _RIGHT
+    places = spread(np.clip(at[right, 1], 0, 1), _LINE / height)
+    for i, place in zip(np.flatnonzero(right).tolist(), places, strict=True):
+        end = float(np.clip(at[i, 0], 0, 1)), float(np.clip(at[i, 1], 0, 1))
+        tie = {"arrowstyle": "-", "color": colors[i], "lw": 0.8, "ls": ":", "shrinkA": 1, "shrinkB": 0}
         ax.annotate(
-            short(name), (float(np.clip(end[0], 0, 1)), float(np.clip(end[1], 0, 1))), (1.03, float(place)),
-            xycoords="axes fraction", textcoords="axes fraction", va="center", fontsize=9, color=_dark(color),
-            arrowprops={"arrowstyle": "-", "color": color, "lw": 0.8, "ls": ":", "shrinkA": 1, "shrinkB": 0},
-            annotation_clip=False, parse_math=False,
+            short(names[i]), end, (1.03, float(place)), xycoords="axes fraction",
+            textcoords="axes fraction", va="center", fontsize=9, color=_dark(colors[i]),
+            arrowprops={**tie, "relpos": (0, 0.5)}, annotation_clip=False, parse_math=False,
         )  # fmt: skip
+    if right.all():
+        return
+    figure.draw_without_rendering()  # for the axes' place
+    room = Room(ax)
+    for line in ax.lines:
+        room.line(line)
+    for i in np.flatnonzero(~right).tolist():
+        style: dict[str, Any] = {"size": 9, "color": _dark(colors[i]), "path_effects": HALO, "zorder": 5}
+        beside(room, ax, short(names[i]), x[i], y[i], needed=True, **style)
 
 
 def spread(wanted: Floats, apart: float) -> Floats:

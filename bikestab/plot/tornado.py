@@ -14,7 +14,8 @@ from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
 
 _COLORS = ("#004488", "#DDAA33")  # Tol 2021, high contrast
-_LEAST = 0.005  # %/%: smaller bars are none to see
+_LEAST, _SEEN = 0.005, 0.004  # %/%, and share of the largest: smaller bars are none to see
+_NAMES = {"V1": "V₁", "V2": "V₂"}
 _PANEL, _BAR = 4.6, 0.24  # inches
 
 

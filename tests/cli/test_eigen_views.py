@@ -168,7 +168,7 @@ def test_the_heading_is_silent_of_a_damping_that_varies(bikestab):
 def test_a_head_angle_is_drawn_in_degrees():
     found = modes_against(BIKE, "head_angle", [math.radians(68), math.radians(74)], 5.0)
     (ax,) = draw_against("own", found, 5.0, "rad").axes
-    assert ax.get_xlabel() == "head_angle [°]"
+    assert ax.get_xlabel() == "head angle [°]"
     assert ax.get_xlim() == pytest.approx((68, 74))
 
 
