@@ -15,7 +15,6 @@ from bikestab.plot.settings import own_settings
 
 _COLORS = ("#004488", "#DDAA33")  # Tol 2021, high contrast
 _LEAST, _SEEN = 0.005, 0.004  # %/%, and share of the largest: smaller bars are none to see
-_NAMES = {"V1": "V₁", "V2": "V₂"}
 _PANEL, _BAR = 4.6, 0.24  # inches
 
 
@@ -40,7 +39,8 @@ def draw_tornado(machines: Sequence[tuple[str, Sequence[Row]]]) -> Figure:
     """One panel for each machine: its name, and the rows of one of its stable intervals.
 
     Bars are per cent of the speed for one per cent of the parameter. Parameters that move neither end by more
-    than 0.005 are left out, as are measures of the front that are not in the bicycle's notation.
+    than 0.005, or too little for a bar to be seen, are left out, as are measures of the front that are not in
+    the bicycle's notation.
     """
     panels = []
     for name, rows in machines:
@@ -51,9 +51,9 @@ def draw_tornado(machines: Sequence[tuple[str, Sequence[Row]]]) -> Figure:
             for row in rows
             if row["notation"]
         ]
-        bars = [bar for bar in bars if max(map(abs, bar.effects)) > _LEAST]
+        bars = [bar for bar in bars if _size(bar) > max(_LEAST, _SEEN * max(map(_size, bars)))]
         panels.append(Panel(name, bars, "no stable speed"))
-    return draw_bars(panels, "% of the speed for 1 % more", ("V1", "V2"))
+    return draw_bars(panels, "% of the speed for 1 % more", ("V₁", "V₂"))
 
 
 @own_settings()
@@ -67,7 +67,7 @@ def draw_bars(panels: Sequence[Panel], words: str, results: Sequence[str] = ("",
         ax.set_xlabel(words)
         title = short(panel.name) if panel.bars else f"{short(panel.name)}: {panel.none}"
         set_title(ax, title, panels=len(panels))
-        if i == 0 and len(results) > 1:
+        if len(results) > 1 and panel.bars and not any(other.get_legend() for other in figure.axes):
             ax.legend(loc="lower right")
     return figure
 
@@ -76,7 +76,8 @@ def _draw(ax: Axes, panel: Panel, results: Sequence[str]) -> None:
     place, height = np.arange(len(panel.bars)), 0.8 / len(results)
     for i, (result, color) in enumerate(zip(results, _COLORS, strict=False)):
         at = place + height * (i - 0.5 * (len(results) - 1))
-        ax.barh(at, [bar.effects[i] for bar in panel.bars], height=height, color=color, label=result)
+        values = [bar.effects[i] for bar in panel.bars]
+        ax.barh(at, values, height=height, color=color, label=result if any(values) else "_none")
     ax.axvline(0, color="0.2", lw=0.8)
     ax.set_yticks(place, [_label(bar) for bar in panel.bars])
     ax.set_ylim(max(len(panel.bars), 1) - 0.5, -0.5)
@@ -85,5 +86,10 @@ def _draw(ax: Axes, panel: Panel, results: Sequence[str]) -> None:
     ax.set_axisbelow(True)
 
 
+def _size(bar: Bar) -> float:
+    return max(map(abs, bar.effects))
+
+
 def _label(bar: Bar) -> str:
-    return f"{bar.name} = {bar.value:.4g}{'' if bar.unit == '1' else f' {bar.unit}'}"
+    value = f"{bar.value:.4g}".replace("-", "−")
+    return f"{bar.name} = {value}{'' if bar.unit == '1' else f' {bar.unit}'}"

@@ -42,6 +42,10 @@ COMMANDS = [
     "sensitivity --bicycle meijaard2007 --bicycle sharp1971",
     "compare meijaard2007 kooijman2011",
     "compare dikarev1981 meijaard2007",
+    f"bicycles dikarev1981 {PAPER}",
+    "bicycles meijaard2007",
+    "bicycles sharp1971",
+    "bicycles kooijman2011",
 ]
 
 
