@@ -24,7 +24,9 @@ _Indices = NDArray[np.intp]
 _Flags = NDArray[np.bool_]
 _MIDDLES = 1.375, 1.28125  # M, where the axis is cut first; the second one where a zero lies on the first
 _MANY = 16  # intervals of a cell that are undecided at a time: it is zero to rounding in a whole range
-_DEPTH = 100  # cuts: an eighth of what begins at zero, half of other intervals
+_NEWTON, _SETTLED = 6, 1e-9  # steps to an extreme value, and the last one's size
+_EDGE = 2.0**-45  # so close to an end of its interval no cut is put at an extreme value
+_DEPTH = 100  # cuts: an eighth of what begins at zero, half of others, or next to an extreme value
 _NARROW = 2.0**-20, 2.0**-49  # relative width at which double, and twice double precision gives up
 
 
@@ -100,7 +102,13 @@ def _isolated(
         open_ &= ~undecided[work.cell]
         if not open_.any():
             break
-        work = _cut(work.chosen(open_), share)
+        work, changes = work.chosen(open_), changes[open_]
+        at = np.where(work.low == 0, 0.125, 0.5)
+        if work.b.rest is not None:
+            pair = np.flatnonzero(changes == 2)
+            at[pair], double = _extremes(work.b.at((slice(None), pair)), at[pair], share)
+            undecided[work.cell[pair[double & (share > 0)]]] = True
+        work = _cut(work, at, share)
     else:
         undecided[work.cell] = True
     return Brackets(*(np.concatenate(each) for each in zip(*found, strict=True))), undecided
@@ -170,9 +178,8 @@ def _bracket_of(work: _Work, which: _Flags, sign: Floats, middle: float) -> Brac
     return Brackets(work.cell[which], low, high, sign[which])
 
 
-def _cut(work: _Work, share: float) -> _Work:
-    """Both parts of each interval; the cut is moved where a zero may lie on it."""
-    at = np.where(work.low == 0, 0.125, 0.5)
+def _cut(work: _Work, at: Floats, share: float) -> _Work:
+    """Both parts of each interval, ``at`` so much of it; the cut is moved where a zero may lie on it."""
     left, right = _parts(work.b, at)
     there = left.at(-1)
     zero = np.abs(there.value) <= share * there.size
@@ -184,6 +191,29 @@ def _cut(work: _Work, share: float) -> _Work:
     inverse = np.concatenate([work.inverse, work.inverse])
     low, high = np.concatenate([work.low, middle]), np.concatenate([middle, work.high])
     return _Work(number, inverse, low, high, _beside([left, right]))
+
+
+def _extremes(b: Twofold, start: Floats, share: float) -> tuple[Floats, _Flags]:
+    """Where to cut 0 … 1 so that polynomials with an extreme value close to zero are soon decided.
+
+    At that value, found by Newton's method, if it is beyond zero, else on either side of it, where the means
+    have its sign; ``start`` if there is none. And whether it may be zero, so that no cut decides.
+    """
+    slopes, t = np.diff(b.value, axis=0), start
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        for _ in range(_NEWTON):
+            c = slopes
+            while len(c) > 2:
+                c = c[:-1] + t * (c[1:] - c[:-1])
+            bend = (len(slopes) - 1) * (c[1] - c[0])
+            t, move = t - (move := (c[0] + t * (c[1] - c[0])) / bend), move
+        found = (t > 0) & (t < 1) & (np.abs(move) < _SETTLED)
+        t = np.where(found, t, start)
+        there = _parts(b, t)[0].at(-1)
+        away = 0.7 * np.sqrt(np.fmax(2 * there.value / (len(slopes) * bend), 0))
+        t = np.where(t > 1.5 * away, t - away, t + away)
+    usable = found & (t > _EDGE) & (t < 1 - _EDGE)
+    return np.where(usable, t, start), found & (np.abs(there.value) <= share * there.size)
 
 
 def _parts(b: Twofold, at: Floats) -> tuple[Twofold, Twofold]:

@@ -1,5 +1,7 @@
 """Intervals with one zero each, and what is left undecided."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -64,8 +66,34 @@ def test_powers_that_no_cell_has_are_left_out_of_the_cuts():
 
 def test_what_cuts_do_not_end_is_undecided(monkeypatch):
     near = polynomial(1.0, 1.0 + 2.0**-20)
-    monkeypatch.setattr(bikestab.isolation, "_DEPTH", 10)
+    monkeypatch.setattr(bikestab.isolation, "_DEPTH", 1)
     assert not brackets(near, 1, COEFFICIENT)[1].any()
+
+
+@pytest.mark.parametrize("power", [-18, -24, -30, -36, -40])
+def test_zeros_close_to_each_other_take_few_cuts(monkeypatch, power):
+    """(x − m)² ∓ 4^power times other factors: both zeros, or none, are known after a few cuts."""
+    monkeypatch.setattr(bikestab.isolation, "_DEPTH", 12)
+    middles = [Fraction(m) for m in (0.6, 1.1, 1.7, 5.3)]
+    cells = [(m, two, other) for m in middles for two in (1, -1) for other in (0, 1)]
+    rows = []
+    for m, two, other in cells:
+        c = [m * m - two * Fraction(4) ** power, -2 * m, Fraction(1)]
+        for zero in (Fraction(3), Fraction(-2), Fraction(1, 4))[: 3 * other]:
+            c = [a - zero * b for a, b in zip([Fraction(0), *c], [*c, Fraction(0)], strict=True)]
+        rows.append(c + [Fraction(0)] * (6 - len(c)))
+    value = [np.array([float(c[j]) for c in rows]) for j in range(6)]
+    rest = [np.array([float(c[j] - Fraction(float(c[j]))) for c in rows]) for j in range(6)]
+    near = [Twofold(a, b, np.abs(a)) for a, b in zip(value, rest, strict=True)]
+    found = zeros_of(near, len(cells))
+    assert found.sure.all()
+    for k, (m, two, other) in enumerate(cells):
+        around = [m - Fraction(2) ** power, m + Fraction(2) ** power] if two > 0 else []
+        expected = sorted(around + [Fraction(3), Fraction(1, 4)][: 2 * other])
+        V, rest_of, radius = (x[np.isfinite(found.V[:, k]), k] for x in found[:3])
+        assert len(V) == len(expected)
+        for x, low, far, zero in zip(V, rest_of, radius, expected, strict=True):
+            assert abs(Fraction(x) + Fraction(low) - zero) <= Fraction(far)
 
 
 @pytest.mark.parametrize("name", ["p1", "hurwitz3"])

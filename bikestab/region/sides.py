@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bikestab.model import Floats
 from bikestab.polynomials import derivative, product, total, value
 from bikestab.region.skeleton import CurveName, SpeedPolynomials, curve_functions, speed_polynomials
-from bikestab.roots import positive_roots
+from bikestab.roots import positive_roots, sign_near_zero
 
 
 def sides(table: Floats, names: Sequence[CurveName]) -> dict[CurveName, Floats]:
@@ -58,11 +58,15 @@ def _folded(weave: Floats) -> Floats:
     The sign is that of half the number of positive roots, without those that came in from infinity or rest:
     where the outermost coefficient becomes negative one comes or goes, as the next one's sign says.
     """
-    size = np.ones(weave.shape[1:])
+    size, number = np.ones(weave.shape[1:]), np.zeros(weave.shape[1:], np.intp)
+    sign = sign_near_zero(weave)
     for V in positive_roots(derivative(weave)):
         with np.errstate(invalid="ignore"):
-            size = np.fmin(size, np.abs(value(weave, V)) / value(np.abs(weave), V))
-    number = np.isfinite(positive_roots(weave)).sum(axis=0)
+            f = value(weave, V)
+            size = np.fmin(size, np.abs(f) / value(np.abs(weave), V))
+        number += sign * f < 0
+        sign = np.where(np.abs(f) > 0, np.sign(f), sign)
+    number += sign * sign_near_zero(weave[::-1]) < 0
     for outer, next_one in ((weave[-1], weave[-2]), (weave[0], weave[1])):
         number = number - np.where(outer < 0, np.where(next_one > 0, 1, -1), 0)
     return np.where(number // 2 % 2, -size, size)
