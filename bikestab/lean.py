@@ -1,10 +1,12 @@
-"""scipy imported in two thirds of the time: without parts of numpy that it lists and does not use."""
+"""scipy imported in two thirds of the time: without what it lists and does not use, and some of it alone."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
+from importlib.util import find_spec, module_from_spec
 from types import ModuleType
 from typing import Any
 
@@ -35,3 +37,23 @@ def lean_numpy() -> Iterator[None]:
         for name, module in late.items():
             if vars(np).get(name) is module:  # else it was imported after all
                 delattr(np, name)
+
+
+def alone(room: str, module: str, public: str = "") -> ModuleType:
+    """A module of a room of scipy without the rest of it, or the public one where it cannot be had alone.
+
+    What is imported for it is forgotten, so that whoever imports the room later gets all of it.
+
+    >>> edt = alone("scipy.ndimage", "_morphology").distance_transform_edt
+    """
+    if room not in sys.modules and (spec := find_spec(room)):
+        sys.modules[room] = module_from_spec(spec)  # as yet empty, and nothing in it is run
+        try:
+            with lean_numpy():
+                return import_module(f"{room}.{module}")
+        except (ImportError, AttributeError):  # in another scipy it may be elsewhere
+            pass
+        finally:
+            for name in [name for name in sys.modules if name == room or name.startswith(f"{room}.")]:
+                del sys.modules[name]
+    return import_module(f"{room}.{public}" if public else room)

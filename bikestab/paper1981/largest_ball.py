@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bikestab.bicycle import Bicycle
+from bikestab.lean import alone
 from bikestab.model import characteristic_table
 from bikestab.paper1981.box import LAM, SIGMA, V
 from bikestab.speeds import intervals_of
@@ -28,12 +29,11 @@ def largest_ball(bicycle: Bicycle, n: int) -> Ball:
 
     From n³ points and the exact distance of each stable one from the nearest that is not, or not in the box.
     """
-    from scipy.ndimage import distance_transform_edt  # which takes as long to import as to compute with
-
     x, y, z = (np.linspace(*ends, n) for ends in (LAM, SIGMA, V))
     ends = intervals_of(characteristic_table(bicycle, x[:, np.newaxis], y))
     V1, V2 = (speeds[:, :, np.newaxis, :] for speeds in (ends.V1, ends.V2))
     stable = ((z[:, np.newaxis] > V1) & (z[:, np.newaxis] < V2)).any(axis=-1)
-    away = distance_transform_edt(np.pad(stable, 1), sampling=1 / (n - 1))[1:-1, 1:-1, 1:-1]
+    distances = alone("scipy.ndimage", "_morphology").distance_transform_edt
+    away = distances(np.pad(stable, 1), sampling=1 / (n - 1))[1:-1, 1:-1, 1:-1]
     i, j, k = np.unravel_index(np.argmax(away), away.shape)
     return Ball(float(x[i]), float(y[j]), float(z[k]), float(away[i, j, k]), n)

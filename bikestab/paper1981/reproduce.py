@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from bikestab.aside import meanwhile
+from bikestab.aside import meanwhile, turns
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.files import unwritable, written
@@ -60,43 +60,67 @@ def reproduce(
 def computed(sampling: Sampling, progress: Progress) -> tuple[Study, dict[str, bytes]]:
     """The study and its figures; where there is a core for it, half of them meanwhile."""
     bicycle = Bicycle.preset(BICYCLE)
+    free = figures_of_all(bicycle, sampling)
 
-    def other_half() -> tuple[Others, dict[str, bytes]]:
-        numbers = others(bicycle, sampling, lambda words: None)
-        return numbers, _drawn(draw_others(bicycle, sampling, numbers))
+    def drawn_of(numbers: Iterable[int]) -> dict[str, bytes]:
+        return _drawn(free[number] for number in numbers)
 
-    with meanwhile(other_half) as other:
-        one = undamped(bicycle, sampling, progress)
-        progress("figures")
-        figures = _drawn(draw_undamped(bicycle, sampling, one))
-        progress("conclusion 4, other readings of the printed values and a motorcycle")
-        two, more = other()
+    with turns(len(free)) as numbers:
+
+        def other_half() -> tuple[Others, dict[str, bytes]]:
+            damped = others(bicycle, sampling, lambda words: None)
+            return damped, _drawn(figures_of_others(bicycle, damped)) | drawn_of(numbers)
+
+        with meanwhile(other_half) as other:
+            one = undamped(bicycle, sampling, progress)
+            progress("figures")
+            figures = _drawn(figures_of_undamped(bicycle, sampling, one)) | drawn_of(numbers)
+            progress("conclusion 4, other readings of the printed values and a motorcycle")
+            two, more = other()
     figures |= more
+    figures |= drawn_of(n for n, (name, _) in enumerate(free) if name not in figures)  # of one that was ended
     return joined(bicycle, sampling, one, two), {name: figures[name] for name in FIGURES}
 
 
-def _drawn(figures: Iterator[tuple[str, Figure]]) -> dict[str, bytes]:
-    return {name: drawn(figure) for name, figure in figures}
+_Named = tuple[str, Callable[[], Figure]]
 
 
-def draw_undamped(bicycle: Bicycle, sampling: Sampling, numbers: Undamped) -> Iterator[tuple[str, Figure]]:
-    """Names and figures, one at a time, of conclusions 1 and 3, whose curves and search are numbers too."""
+def _drawn(figures: Iterable[_Named]) -> dict[str, bytes]:
+    return {name: drawn(draw()) for name, draw in figures}
+
+
+def figures_of_undamped(bicycle: Bicycle, sampling: Sampling, numbers: Undamped) -> list[_Named]:
+    """Names and figures of conclusions 1 and 3, whose curves and search are numbers too."""
     examples = [(e.lam, e.sigma) for e in numbers.finite.counterexamples]
-    yield "conclusion1.png", pictures.draw_kinds(bicycle, examples, sampling.picture)
-    wanted = whole_box(bicycle)
-    best = searched(wanted, sampling.search)
-    yield "conclusion3.png", draw_designs(wanted, best, box_curves(bicycle, sampling.picture))
+
+    def best() -> Figure:
+        wanted = whole_box(bicycle)
+        return draw_designs(wanted, searched(wanted, sampling.search), box_curves(bicycle, sampling.picture))
+
+    return [
+        ("conclusion1.png", lambda: pictures.draw_kinds(bicycle, examples, sampling.picture)),
+        ("conclusion3.png", best),
+    ]
 
 
-def draw_others(bicycle: Bicycle, sampling: Sampling, numbers: Others) -> Iterator[tuple[str, Figure]]:
-    """The other names and figures."""
-    mesh = region_mesh(Family(bicycle), LAM, SIGMA, V, cells=sampling.cells)
-    yield "machine.png", pictures.draw_machine(bicycle, *TABLE[0])
-    yield "figure3.png", pictures.draw_sections(bicycle, sampling.picture)
-    yield "figure3_space.png", pictures.draw_space(bicycle, mesh)
-    yield "refinement.png", pictures.draw_refinement(bicycle, SECTION, sampling.picture)
-    yield "conclusion2.png", pictures.draw_widths(bicycle, sampling.picture)
-    yield "conclusion4.png", pictures.draw_damping(bicycle, numbers.damped)
+def figures_of_others(bicycle: Bicycle, numbers: Others) -> list[_Named]:
+    """The name and the figure of conclusion 4."""
+    return [("conclusion4.png", lambda: pictures.draw_damping(bicycle, numbers.damped))]
+
+
+def figures_of_all(bicycle: Bicycle, sampling: Sampling) -> list[_Named]:
+    """Names and figures that need no numbers of the study, those that take longest first."""
+
+    def space() -> Figure:
+        return pictures.draw_space(bicycle, region_mesh(Family(bicycle), LAM, SIGMA, V, cells=sampling.cells))
+
+    return [
+        ("figure3_space.png", space),
+        ("figure3.png", lambda: pictures.draw_sections(bicycle, sampling.picture)),
+        ("refinement.png", lambda: pictures.draw_refinement(bicycle, SECTION, sampling.picture)),
+        ("conclusion2.png", lambda: pictures.draw_widths(bicycle, sampling.picture)),
+        ("machine.png", lambda: pictures.draw_machine(bicycle, *TABLE[0])),
+    ]
 
 
 def _prepare(folder: Path) -> None:

@@ -9,8 +9,9 @@ from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.paper1981.box import LAM, SIGMA, V
 from bikestab.paper1981.pictures.machine import PITCH, draw_machine
+from bikestab.paper1981.pictures.places import PLACES
 from bikestab.paper1981.pictures.ticks import oriented
-from bikestab.paper1981.reproduce import draw_others, draw_undamped
+from bikestab.paper1981.reproduce import figures_of_all, figures_of_others, figures_of_undamped
 from bikestab.paper1981.study import ARROW, FIGURES
 from bikestab.region.section import Section, edge_curves
 from bikestab.routh import CONDITIONS, stable
@@ -51,7 +52,11 @@ def test_the_arrow_points_into_the_region():
 def test_figures_are_drawn():
     one, two = halves()
     bicycle = Bicycle.preset("dikarev1981")
-    found = dict([*draw_undamped(bicycle, TINY, one), *draw_others(bicycle, TINY, two)])
+    named = [
+        *figures_of_undamped(bicycle, TINY, one), *figures_of_others(bicycle, two),
+        *figures_of_all(bicycle, TINY),
+    ]  # fmt: skip
+    found = {name: draw() for name, draw in named}
     assert set(found) == set(FIGURES)
     left, right = found["figure3.png"].axes[:2]
     assert len(left.lines) > 12
@@ -60,6 +65,11 @@ def test_figures_are_drawn():
     assert "unrefined: conditions at λ = 0.3 rad, no stable motion" in words
     words = {t.get_text() for t in found["machine.png"].findobj(Text)}
     assert {"φ0", "α", "β", "L", "d1", "λ"} <= words
+    figure = found["refinement.png"]
+    figure.set_layout_engine("constrained")  # it measures every text
+    figure.draw_without_rendering()
+    for ax, place in zip(figure.axes, PLACES["refinement"], strict=True):
+        assert ax.get_position().bounds == pytest.approx(place, abs=0.01)
 
 
 def test_the_frame_s_lengths_are_those_of_the_printed_block():

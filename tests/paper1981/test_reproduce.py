@@ -45,9 +45,10 @@ def test_a_folder_that_is_a_file(tmp_path):
 
 def test_halves(monkeypatch):
     """Both halves make the study, whether one is computed in another process or not."""
-    for name in ("draw_undamped", "draw_others"):
-        monkeypatch.setattr(module, name, lambda *given, name=name: iter([(name, Figure())]))
-    monkeypatch.setattr(module, "FIGURES", ["draw_undamped", "draw_others"])
+    kinds = "figures_of_undamped", "figures_of_others", "figures_of_all"
+    for name in kinds:
+        monkeypatch.setattr(module, name, lambda *given, name=name: [(name, Figure)])
+    monkeypatch.setattr(module, "FIGURES", kinds)
     monkeypatch.setattr(module, "others", lambda *given: halves()[1])
     monkeypatch.setattr(module, "undamped", lambda *given: halves()[0])
     told = []
@@ -55,5 +56,5 @@ def test_halves(monkeypatch):
         monkeypatch.setattr("bikestab.aside.cores", lambda cores=cores: cores)
         numbers, figures = module.computed(TINY, told.append)
         assert plain(numbers) == study()
-        assert [content[:4] for content in figures.values()] == [b"\x89PNG"] * 2
+        assert [content[:4] for content in figures.values()] == [b"\x89PNG"] * 3
     assert told[0] == "figures"

@@ -13,6 +13,7 @@ from bikestab.paper1981.box import V
 from bikestab.paper1981.claims import THRESHOLDS
 from bikestab.paper1981.damped_designs import DampedDesign
 from bikestab.paper1981.damping import Damping
+from bikestab.paper1981.pictures.places import TITLE, place
 from bikestab.plot.axes import HALO, LABELS
 from bikestab.plot.settings import own_settings
 
@@ -30,7 +31,7 @@ _COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9")  #
 @own_settings()
 def draw_damping(bicycle: Bicycle, numbers: Damping) -> Figure:
     """V1 and V2 of single designs, and the region's measures, against δ."""
-    figure = Figure(figsize=(11, 4.9), layout="constrained")
+    figure = Figure(figsize=(11, 4.9))
     left, right = figure.subplots(1, 2)
     _single_designs(left, numbers.single_designs)
     _measures(right, numbers)
@@ -45,8 +46,10 @@ def draw_damping(bicycle: Bicycle, numbers: Damping) -> Figure:
         ax.legend(fontsize=8.5, loc=where)
     figure.suptitle(
         f"{bicycle.name}: the boundaries against damping (grey: up to the measured friction of bearings)",
+        y=TITLE,
         fontsize=11,
     )
+    place(figure, "damping")
     return figure
 
 

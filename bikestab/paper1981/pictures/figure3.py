@@ -13,6 +13,7 @@ from mpl_toolkits.mplot3d import Axes3D
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.fields import Axis
+from bikestab.paper1981.pictures.places import TITLE, place
 from bikestab.paper1981.pictures.ticks import ENDS, TICKS, draw_ticked
 from bikestab.paper1981.study import ARROW, FAMILY_LAM, FAMILY_SIGMA
 from bikestab.plot.axes import HALO, SYMBOLS, label_axes
@@ -33,7 +34,7 @@ _FAMILIES: dict[Axis, tuple[float, ...]] = {"lam": FAMILY_LAM, "sigma": FAMILY_S
 @own_settings()
 def draw_sections(bicycle: Bicycle, samples: int) -> Figure:
     """The paper's figure 3 as two families of curves: (σ, V) at several λ, and (λ, V) at several σ."""
-    figure = Figure(figsize=(11.5, 5.6), layout="constrained")
+    figure = Figure(figsize=(11.5, 5.6))
     for ax, (fixed, values) in zip(figure.subplots(1, 2), _FAMILIES.items(), strict=True):
         _family(ax, bicycle, fixed, values, samples)
     handles = [entry(name, color="0.2", lw=1.7, ls=style) for name, style in EDGES.values()]
@@ -42,8 +43,11 @@ def draw_sections(bicycle: Bicycle, samples: int) -> Figure:
     )
     legend_below(figure, handles)
     figure.suptitle(
-        f"{bicycle.name}: boundaries of the stability region, computed for the box of figure 3", fontsize=11
+        f"{bicycle.name}: boundaries of the stability region, computed for the box of figure 3",
+        y=TITLE,
+        fontsize=11,
     )
+    place(figure, "sections")
     return figure
 
 
@@ -94,7 +98,7 @@ def _label_ends(ax: Axes, ends: list[tuple[float, float, str, str]], right: floa
 @own_settings()
 def draw_space(bicycle: Bicycle, mesh: Mesh) -> Figure:
     """The region in three dimensions, the arrow into it."""
-    figure = Figure(figsize=(7.4, 6.4), layout="constrained")
+    figure = Figure(figsize=(7.4, 6.4))
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
     handles = draw_mesh(ax, mesh, list(ENDS.values()))
     start, tip = np.array(ARROW)
@@ -103,4 +107,5 @@ def draw_space(bicycle: Bicycle, mesh: Mesh) -> Figure:
     ax.text(*start, "stable", ha="center", va="bottom", zorder=9, path_effects=HALO)
     legend_below(figure, handles, handlelength=2)
     ax.set_title(f"{bicycle.name}: the stability region, computed for the box of figure 3", fontsize=10)
+    place(figure, "space")
     return figure

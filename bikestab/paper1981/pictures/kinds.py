@@ -15,6 +15,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.paper1981.box import LAM, SIGMA, DesignBox
 from bikestab.paper1981.maps import box_curves, map_designs
+from bikestab.paper1981.pictures.places import place
 from bikestab.plot.axes import HALO, label_axes
 from bikestab.plot.designs import CURVES
 from bikestab.plot.lines import draw_on_white, entry, legend_below
@@ -35,7 +36,7 @@ def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], sample
 
     The line b = 0 and an inset where two intervals meet the box.
     """
-    figure = Figure(figsize=(8.2, 6.6), layout="constrained")
+    figure = Figure(figsize=(8.2, 6.6))
     ax = figure.add_subplot()
     around = DesignBox(LAM, (SIGMA[0], _TOP))
     styles = _kinds(ax, bicycle, around, box_curves(bicycle, samples))
@@ -58,6 +59,7 @@ def draw_kinds(bicycle: Bicycle, examples: Sequence[tuple[float, float]], sample
     handles.append(entry("counterexamples", ls="", marker="o", mfc="white", mec="black"))
     legend_below(figure, handles, handlelength=2.8)
     ax.set_title(f"{bicycle.name}: which designs have an upper limit of the stable speed", fontsize=10)
+    place(figure, "kinds")
     return figure
 
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bikestab.bicycle import Bicycle
+from bikestab.paper1981.pictures.places import place
 from bikestab.plot.placing import AROUND
 from bikestab.plot.settings import own_settings
 from bikestab.plot.side import Words, side_axes, write_words
@@ -21,7 +22,7 @@ _COLOUR = "#00795a"
 @own_settings()
 def draw_machine(bicycle: Bicycle, lam: float, sigma: float) -> Figure:
     """The side view with the block before (1.2) too: φ0; α, β to M1; L, d1 and d to M2."""
-    figure = Figure(figsize=(6.2, 5.0), layout="constrained")
+    figure = Figure(figsize=(6.2, 5.0))
     ax = figure.add_subplot()
     words = side_axes(ax, bicycle, lam, sigma)
     p, c1 = bicycle, sigma * bicycle.c * math.cos(lam)
@@ -41,6 +42,7 @@ def draw_machine(bicycle: Bicycle, lam: float, sigma: float) -> Figure:
     angle = np.linspace(0, PITCH, 20)
     ax.plot(radius * np.cos(angle), p.R1 - radius * np.sin(angle), color=_COLOUR, lw=0.9)
     words.append(Words("φ0", (float(radius), float(p.R1 - 0.05 * p.c)), AROUND, _COLOUR))
+    place(figure, "machine")
     write_words(ax, words)
     return figure
 

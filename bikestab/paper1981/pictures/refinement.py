@@ -13,6 +13,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import MODELS
 from bikestab.paper1981.box import SIGMA, V
+from bikestab.paper1981.pictures.places import place
 from bikestab.paper1981.pictures.ticks import draw_ticked
 from bikestab.plot.axes import label_axes
 from bikestab.plot.lines import entry, legend_below
@@ -33,7 +34,7 @@ _TOP = V[1] / 2  # m/s
 @own_settings()
 def draw_refinement(bicycle: Bicycle, lam: float, samples: int) -> Figure:
     """Both models side by side: the conditions at one λ over (σ, V)."""
-    figure = Figure(figsize=(11, 5), layout="constrained")
+    figure = Figure(figsize=(11, 5))
     for ax, model in zip(figure.subplots(1, 2), MODELS, strict=True):
         _conditions(ax, Section(Family(bicycle, model), "lam", lam), samples)
     handles: list[Any] = [
@@ -42,6 +43,7 @@ def draw_refinement(bicycle: Bicycle, lam: float, samples: int) -> Figure:
     ]
     handles.append(Patch(facecolor=_STABLE, label="stable"))
     legend_below(figure, handles)
+    place(figure, "refinement")
     return figure
 
 

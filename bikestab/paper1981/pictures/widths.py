@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats
 from bikestab.paper1981.box import LAM, SIGMA, V
+from bikestab.paper1981.pictures.places import TITLE, place
 from bikestab.paper1981.widening import LAMS, SIGMAS, widest
 from bikestab.plot.axes import label_axes
 from bikestab.plot.settings import own_settings
@@ -23,7 +24,7 @@ _TICKS = [0.1, 0.2, 0.5, 1, 2, 5, 10]  # m/s
 @own_settings()
 def draw_widths(bicycle: Bicycle, samples: int) -> Figure:
     """The width of the widest interval along λ at several σ, and along σ at several λ."""
-    figure = Figure(figsize=(11, 4.8), layout="constrained")
+    figure = Figure(figsize=(11, 4.8))
     left, right = figure.subplots(1, 2)
     x, y = np.linspace(*LAM, 2 * samples), np.linspace(*SIGMA, 2 * samples)
     _lines(left, x, {f"σ = {sigma:.2f}": widest(bicycle, x, sigma) for sigma in SIGMAS})
@@ -31,7 +32,8 @@ def draw_widths(bicycle: Bicycle, samples: int) -> Figure:
     for ax, name in ((left, "lam"), (right, "sigma")):
         label_axes(ax, name, "V", bicycle.c)
         ax.set_ylabel(f"width of the widest interval up to {V[1]:g} m/s [m/s]")
-    figure.suptitle(f"{bicycle.name}: how the width depends on tilt and trail", fontsize=11)
+    figure.suptitle(f"{bicycle.name}: how the width depends on tilt and trail", y=TITLE, fontsize=11)
+    place(figure, "widths")
     return figure
 
 
