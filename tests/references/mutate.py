@@ -143,6 +143,7 @@ def _difference(before, text):
 def main(number=10_000, seed=0):
     """Try so many mutants, drawn at random."""
     os.chdir(ROOT)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # which shells ignore in what runs behind them
     settings.register_profile(
         "mutants", database=None, deadline=None, phases=(Phase.explicit, Phase.generate)
     )
