@@ -86,7 +86,7 @@ def test_numbers_of_model_py(model, machine, lam, sigma):
     ):  # terms that cancel in the derivation's own form leave nothing of its last digits
         expected = in_numbers(model)(*(mpmath.mpf(numbers[name]) for name in PARAMETERS))
     for found, value in zip(coefficients(bicycle, lam, sigma, model=model), expected, strict=True):
-        assert abs(found.value - value) <= 1e-13 * found.size
+        assert abs(found.value - value) <= 1e-13 * found.size + 1e-300  # products of tiny tilts underflow
 
 
 @cache
