@@ -98,9 +98,6 @@ class Unordered:
     def __neg__(self) -> Unordered:
         return Unordered(-self.value, -self.rest, self.size)
 
-    def __rsub__(self, other: Any) -> Unordered:
-        return Unordered(other) - self
-
     __radd__, __rmul__ = __add__, __mul__
 
 

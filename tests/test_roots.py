@@ -54,6 +54,8 @@ def exact(coefficients):
         ([0, 0, 1, 4], [1, 4]),
         ([2, 2], []),  # no change of sign
         ([2, 2, 5], [5]),
+        ([1, 1, 3], [3]),  # the polynomial is exactly zero where its slope is found to be
+        ([4, 4, 1], [1]),
         ([2, 2, 2], [2]),
         ([1, 1, 3, 3], []),
         ([1, 2, 2, 2, 8], [1, 2, 8]),
@@ -137,6 +139,7 @@ def test_vectorised_equals_scalar():
 def test_sign_near_zero():
     cells = np.array([[1, -5], [-1, 5], [0, -5], [0, 5], [0, 0]], float).T
     assert sign_near_zero(cells).tolist() == [1, -1, -1, 1, 0]
+    assert sign_near_zero(np.insert(cells, 1, 0.0, axis=0)).tolist() == [1, -1, -1, 1, 0]
 
 
 coefficient = st.just(0.0) | st.builds(

@@ -1,6 +1,7 @@
 """The short way to read flat YAML against the whole of it, and that held against ruamel's."""
 
 import math
+import sys
 import time
 from itertools import product
 from pathlib import Path
@@ -200,7 +201,7 @@ def test_time_is_bounded(text, told):
     begin = time.process_time()
     with pytest.raises(InputError, match=told) as error:
         yamltext.parse(text, "a.yaml")
-    assert time.process_time() - begin < 2
+    assert time.process_time() - begin < (2 if sys.gettrace() is None else 20)  # coverage traces each line
     assert len(str(error.value)) < 300
 
 
