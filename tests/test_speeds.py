@@ -2,6 +2,7 @@
 
 import json
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -9,8 +10,9 @@ from hypothesis import assume, given, settings
 from mpmath import mp, mpf
 
 from bikestab.bicycle import Bicycle
+from bikestab.critical import critical
 from bikestab.entries import cells_of
-from bikestab.model import characteristic_table
+from bikestab.model import characteristic_table, exact_table
 from bikestab.routh import coefficients_at, condition_polynomials
 from bikestab.speeds import (
     CAPSIZE,
@@ -188,6 +190,25 @@ def test_the_sign_of_a_coefficient_that_cancels_is_not_certain(k, power):
     table = table_of({(j, 0): 1.0 for j in range(1, 5)} | {(k, power): -(3.0**-power)}, (1,))
     stable, certain = _others_positive(cells_of(table), np.array([0]), np.array([3.0]))
     assert (stable.item(), certain.item()) == (k < 3, k < 3)
+
+
+def test_an_error_is_no_less_than_second_double_and_radius():
+    table = exact_table(Bicycle.preset("meijaard2007"), np.array([0.1, 0.2, 0.3]), 0.08)
+    found, zeros = intervals_of(table), critical(table, ("p0", "hurwitz3")).zeros
+    condition, compared = {WEAVE: "hurwitz3", CAPSIZE: "p0"}, 0
+    for cell in range(3):
+        for V, error, kind in (
+            (found.V1[cell, 0], found.V1_error[cell, 0], found.lower[cell, 0]),
+            (found.V2[cell, 0], found.V2_error[cell, 0], found.upper[cell, 0]),
+        ):
+            if kind not in condition:
+                continue
+            name, compared = condition[kind], compared + 1
+            (row,) = np.flatnonzero(zeros[name].V[:, cell] == V)
+            rest, radius = zeros[name].rest[row, cell], zeros[name].radius[row, cell]
+            least = abs(Fraction(float(rest))) + Fraction(float(radius))
+            assert least <= Fraction(float(error)) < least * Fraction(1 + 1e-14)
+    assert compared >= 2
 
 
 @pytest.mark.parametrize("k", [1, 2, 3, 4])
