@@ -9,23 +9,19 @@ is taken.
 from __future__ import annotations
 
 import ctypes
-from functools import cache
-from hashlib import sha256
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.entries import DAMPED
 from bikestab.errors import InputError
+from bikestab.kernels import address, library
 from bikestab.model import Floats
 from bikestab.polynomials import value_of_cubics
 from bikestab.quartic import split
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
 
-LIBRARY = Path(__file__).with_name("kernels.bin")
 START = 32  # speeds; divides those of a tile of a scan
 _LANES = 16  # as in growth.c
 _MOST = 4  # as in intervals.c
@@ -36,7 +32,7 @@ _LARGEST = 2.0**60
 
 def available() -> bool:
     """Whether it was compiled when this package was installed, and can be loaded."""
-    return _library() is not None
+    return library() is not None
 
 
 def check_available() -> None:
@@ -45,20 +41,6 @@ def check_available() -> None:
         problem = "the compiled kernel is not there"
         hint = "install bikestab where there is a C compiler, or leave fast out"
         raise InputError(problem, key=("fast",), hint=hint)
-
-
-@cache
-def _library() -> Any:
-    """The library; None where there is none, and where it was made of other sources than those beside it."""
-    try:
-        library = ctypes.CDLL(str(LIBRARY))
-        library.sources.restype = ctypes.c_ulonglong
-        made_of = library.sources()
-    except (OSError, AttributeError):
-        return None
-    sources = sorted(LIBRARY.parent.glob("*.c"))  # not in a wheel, whose library was made with it
-    text = b"".join(path.read_bytes() for path in sources)
-    return library if not sources or made_of == int(sha256(text).hexdigest()[:15], 16) else None
 
 
 def growth_rates(table: Floats, V: Floats) -> NDArray[np.float32]:
@@ -96,8 +78,8 @@ def stable_speeds(table: Floats) -> tuple[Floats, Floats]:
     V1, V2 = np.empty((2, table.shape[-1], _MOST))
     sure = np.zeros(table.shape[-1], np.uint8)
     if not any(table[key].any() for key in np.ndindex(5, 4) if key not in DAMPED):
-        _library().intervals(
-            _address(table), ctypes.c_long(table.shape[-1]), _address(V1), _address(V2), _address(sure)
+        library().intervals(
+            address(table), ctypes.c_long(table.shape[-1]), address(V1), address(V2), address(sure)
         )
     size = np.abs(table).reshape(20, -1)
     in_range = ((size == 0) | ((size > 1 / _LARGEST) & (size < _LARGEST))).all(axis=0)  # products too
@@ -124,8 +106,8 @@ def _follow(table: Floats, V: Floats, out: NDArray[np.float32]) -> None:
     weights = _weights(V)
     for n in range(0, len(V), START):
         some, start = slice(n, n + START), np.ascontiguousarray(factors[..., n // START])
-        _library().growth(
-            *map(_address, (rows, degrees, start, V[some], weights[some], rates[:, some])),
+        library().growth(
+            *map(address, (rows, degrees, start, V[some], weights[some], rates[:, some])),
             *map(ctypes.c_long, (cells, len(V[some]), len(V))),
         )
     out[...] = rates[: len(out)]
@@ -143,7 +125,3 @@ def _weights(V: Floats) -> Floats:
             others = np.delete(before, i, axis=-1)
             weights[k, i] = ((V[k, np.newaxis] - others) / (before[:, [i]] - others)).prod(axis=-1)
     return weights
-
-
-def _address(array: NDArray) -> ctypes.c_void_p:
-    return ctypes.c_void_p(array.ctypes.data)

@@ -15,23 +15,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.certain import Zeros, collected, signs
+from bikestab.approached import Coefficients, zeros_near
+from bikestab.certain import Zeros, signs
 from bikestab.entries import Entries
 from bikestab.halved import Halved, halved, halved_double, product, square
-from bikestab.isolation import isolated
 from bikestab.model import Floats
-from bikestab.roots import bracketed_root
 from bikestab.rounding import COEFFICIENT, CONDITION_AT, POLYNOMIAL
 from bikestab.twofold import Double, Pair, Twofold, pair_difference, pair_product, pair_sum, two_product
 
 _ENOUGH = 2.0**-55  # a bound relative to its speed, below the rounding of that
 _MOST = 0.5  # of the cells: so many are worked on as quickly together with the others as by themselves
-_NEAR = 1e-7  # the last relative step to where the correction starts, which squares what is left
 _STEPS = 4  # in twice double precision
 _Cells = NDArray[np.bool_]
 _Some = Any  # an index of cells
-
-Coefficients = Sequence[Double | None]  # of V^0, V^1, …; None where it is zero in all cells
 
 
 class Condition(NamedTuple):
@@ -182,10 +178,8 @@ def _roots_of_quadratic(c: Sequence[Double]) -> tuple[Floats, _Cells, Floats]:
 
 def zeros_between(entries: Entries, condition: Condition, c: Coefficients) -> Zeros:
     """The positive zeros V of p1 or hurwitz3 with damping; ``sure`` where they are good."""
-    (cell, low, high, sign), undecided = isolated(c, len(entries))
-    plain = np.array([np.zeros(len(cell)) if a is None else a.value[cell] for a in c])
-    start = bracketed_root(plain, low, high, sign, _NEAR)
-    return corrected(entries, condition, c, collected(cell, start[np.newaxis], len(entries))[0], ~undecided)
+    start, undecided = zeros_near(c, len(entries))
+    return corrected(entries, condition, c, start, ~undecided)
 
 
 def corrected(entries: Entries, condition: Condition, c: Coefficients, V: Floats, settled: _Cells) -> Zeros:

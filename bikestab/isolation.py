@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bikestab.casteljau import beside, extremes, parts, stacked
 from bikestab.model import Floats
 from bikestab.rounding import CUT, POLYNOMIAL
 from bikestab.signchanges import sign_changes
@@ -22,12 +23,10 @@ from bikestab.twofold import Double, Twofold
 
 _Indices = NDArray[np.intp]
 _Flags = NDArray[np.bool_]
-_MIDDLES = 1.375, 1.28125  # M, where the axis is cut first; the second one where a zero lies on the first
-_MANY = 16  # intervals of a cell that are undecided at a time: it is zero to rounding in a whole range
-_NEWTON, _SETTLED = 6, 1e-9  # steps to an extreme value, and the last one's size
-_EDGE = 2.0**-45  # so close to an end of its interval no cut is put at an extreme value
-_DEPTH = 100  # cuts: an eighth of what begins at zero, half of others, or next to an extreme value
-_NARROW = 2.0**-20, 2.0**-49  # relative width at which double, and twice double precision gives up
+MIDDLES = 1.375, 1.28125  # M, where the axis is cut first; the second one where a zero lies on the first
+MANY = 16  # intervals of a cell that are undecided at a time: it is zero to rounding in a whole range
+DEPTH = 100  # cuts: an eighth of what begins at zero, half of others, or next to an extreme value
+NARROW = 2.0**-20, 2.0**-49  # relative width at which double, and twice double precision gives up
 
 
 class _Work(NamedTuple):
@@ -60,13 +59,13 @@ def brackets(coefficients: Sequence[Twofold | None], number: int, error: float) 
     """
     size = [None if a is None else Double(a.value, a.size) for a in coefficients]
     found, undecided = isolated(size, number)
-    for middle in _MIDDLES:
+    for middle in MIDDLES:
         again = np.flatnonzero(undecided)
         if not len(again):
             break
         some = [a and a.at(again) for a in coefficients]
         work = _halves(some, len(again), middle)
-        more, unsure = _isolated(work, len(again), middle, 16 * error, _NARROW[1])
+        more, unsure = _isolated(work, len(again), middle, 16 * error, NARROW[1])
         kept = ~undecided[found.cell]
         more = more._replace(cell=again[more.cell])
         found = Brackets(*(np.concatenate([a[kept], b]) for a, b in zip(found, more, strict=True)))
@@ -76,14 +75,14 @@ def brackets(coefficients: Sequence[Twofold | None], number: int, error: float) 
 
 def guessed(coefficients: Sequence[Twofold | None], number: int) -> tuple[Brackets, _Flags]:
     """As ``brackets``, by the coefficients' signs as they are; no cell is sure."""
-    work = _halves(coefficients, number, _MIDDLES[0])
-    return _isolated(work, number, _MIDDLES[0], 0.0, 0.0)[0], np.zeros(number, bool)
+    work = _halves(coefficients, number, MIDDLES[0])
+    return _isolated(work, number, MIDDLES[0], 0.0, 0.0)[0], np.zeros(number, bool)
 
 
 def isolated(coefficients: Sequence[Double | None], number: int) -> tuple[Brackets, _Flags]:
     """As ``brackets``, in double precision: and which cells it leaves undecided."""
-    work = _plain_halves(coefficients, number, _MIDDLES[0])
-    return _isolated(work, number, _MIDDLES[0], CUT, _NARROW[0])
+    work = _plain_halves(over_binomials(coefficients, number))
+    return _isolated(work, number, MIDDLES[0], CUT, NARROW[0])
 
 
 def _isolated(
@@ -92,13 +91,13 @@ def _isolated(
     """The intervals, and which cells are undecided."""
     undecided = np.zeros(number, bool)
     found = []
-    for _ in range(_DEPTH):
+    for _ in range(DEPTH):
         changes, clear, end = _sign_changes(work, share)
         one = clear & (changes == 1)
         found.append(_bracket_of(work, one, end, middle))
         open_ = ~clear | (changes > 1)
         undecided[work.cell[open_ & (work.high - work.low <= narrow * work.high)]] = True
-        undecided |= np.bincount(work.cell[open_], minlength=number) > _MANY
+        undecided |= np.bincount(work.cell[open_], minlength=number) > MANY
         open_ &= ~undecided[work.cell]
         if not open_.any():
             break
@@ -106,7 +105,7 @@ def _isolated(
         at = np.where(work.low == 0, 0.125, 0.5)
         if work.b.rest is not None:
             pair = np.flatnonzero(changes == 2)
-            at[pair], double = _extremes(work.b.at((slice(None), pair)), at[pair], share)
+            at[pair], double = extremes(work.b.at((slice(None), pair)), at[pair], share)
             undecided[work.cell[pair[double & (share > 0)]]] = True
         work = _cut(work, at, share)
     else:
@@ -132,22 +131,31 @@ def _halves(coefficients: Sequence[Twofold | None], number: int, middle: float) 
                 if x is not None:
                     total = total + x * factor
             rows.append(total)
-    b = _beside([_stacked(rows[: n + 1]), _stacked(rows[n + 1 :])])
+    b = beside([stacked(rows[: n + 1]), stacked(rows[n + 1 :])])
     return _whole(b, number)
 
 
-def _plain_halves(coefficients: Sequence[Double | None], number: int, middle: float) -> _Work:
-    """``_halves`` in double precision; sizes such that CUT of them covers the coefficients' errors too.
+def over_binomials(coefficients: Sequence[Double | None], number: int) -> Floats:
+    """Of V = M x: values and sizes (2, power, number) of which Bernstein coefficients are sums.
+
+    Sizes are such that CUT of them covers the coefficients' errors too.
+    """
+    n = len(coefficients) - 1
+    a = np.zeros((2, n + 1, number))
+    for j, c in enumerate(coefficients):
+        if c is not None:
+            factor = MIDDLES[0] ** j / comb(n, j)
+            a[0, j] = c.value * factor
+            a[1, j] = (np.abs(c.value) + POLYNOMIAL / CUT * c.size) * factor
+    return a
+
+
+def _plain_halves(a: Floats) -> _Work:
+    """``_halves`` in double precision, of what is ``over_binomials``.
 
     The sum over j of binomials (i, j) times a number is the first one after i times adding to each its next.
     """
-    n = len(coefficients) - 1
-    a = np.zeros((2, n + 1, number))  # values and sizes
-    for j, c in enumerate(coefficients):
-        if c is not None:
-            factor = middle**j / comb(n, j)
-            a[0, j] = c.value * factor
-            a[1, j] = (np.abs(c.value) + POLYNOMIAL / CUT * c.size) * factor
+    n, number = a.shape[1] - 1, a.shape[2]
     b = np.empty((2, n + 1, 2 * number))
     for sums, here in ((a, slice(number)), (a[:, ::-1], slice(number, None))):
         for i in range(n + 1):
@@ -158,9 +166,8 @@ def _plain_halves(coefficients: Sequence[Double | None], number: int, middle: fl
 
 def _whole(b: Twofold, number: int) -> _Work:
     """The intervals 0 … 1 of x, of all cells and both ways round."""
-    cell = np.arange(2 * number) % max(number, 1)
-    ends = np.zeros(2 * number), np.ones(2 * number)
-    return _Work(cell, np.arange(2 * number) >= number, *ends, b)
+    each, ends = np.arange(2 * number), (np.zeros(2 * number), np.ones(2 * number))
+    return _Work(each % max(number, 1), each >= number, *ends, b)
 
 
 def _sign_changes(work: _Work, share: float) -> tuple[NDArray[Any], _Flags, Floats]:
@@ -180,71 +187,14 @@ def _bracket_of(work: _Work, which: _Flags, sign: Floats, middle: float) -> Brac
 
 def _cut(work: _Work, at: Floats, share: float) -> _Work:
     """Both parts of each interval, ``at`` so much of it; the cut is moved where a zero may lie on it."""
-    left, right = _parts(work.b, at)
+    left, right = parts(work.b, at)
     there = left.at(-1)
     zero = np.abs(there.value) <= share * there.size
     if zero.any():
         at = np.where(zero, 0.75 * at, at)
-        left, right = _parts(work.b, at)
+        left, right = parts(work.b, at)
     middle = work.low + at * (work.high - work.low)
     number = np.concatenate([work.cell, work.cell])
     inverse = np.concatenate([work.inverse, work.inverse])
     low, high = np.concatenate([work.low, middle]), np.concatenate([middle, work.high])
-    return _Work(number, inverse, low, high, _beside([left, right]))
-
-
-def _extremes(b: Twofold, start: Floats, share: float) -> tuple[Floats, _Flags]:
-    """Where to cut 0 … 1 so that polynomials with an extreme value close to zero are soon decided.
-
-    At that value, found by Newton's method, if it is beyond zero, else on either side of it, where the means
-    have its sign; ``start`` if there is none. And whether it may be zero, so that no cut decides.
-    """
-    slopes, t = np.diff(b.value, axis=0), start
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        for _ in range(_NEWTON):
-            c = slopes
-            while len(c) > 2:
-                c = c[:-1] + t * (c[1:] - c[:-1])
-            bend = (len(slopes) - 1) * (c[1] - c[0])
-            t, move = t - (move := (c[0] + t * (c[1] - c[0])) / bend), move
-        found = (t > 0) & (t < 1) & (np.abs(move) < _SETTLED)
-        t = np.where(found, t, start)
-        there = _parts(b, t)[0].at(-1)
-        away = 0.7 * np.sqrt(np.fmax(2 * there.value / (len(slopes) * bend), 0))
-        t = np.where(t > 1.5 * away, t - away, t + away)
-    usable = found & (t > _EDGE) & (t < 1 - _EDGE)
-    return np.where(usable, t, start), found & (np.abs(there.value) <= share * there.size)
-
-
-def _parts(b: Twofold, at: Floats) -> tuple[Twofold, Twofold]:
-    """The Bernstein coefficients left and right of the place ``at`` (interval,) by de Casteljau's means."""
-    left, right = [b.at(0)], [b.at(-1)]
-    while len(b.value) > 1:
-        b = _mean(b.at(slice(None, -1)), b.at(slice(1, None)), at)
-        left.append(b.at(0))
-        right.append(b.at(-1))
-    return _stacked(left), _stacked(right[::-1])
-
-
-def _mean(a: Twofold, b: Twofold, at: Floats) -> Twofold:
-    size = a.size + at * (b.size - a.size)
-    if a.rest is None:
-        return Twofold(a.value + at * (b.value - a.value), None, size)
-    moved = (b - a) * at + a
-    return Twofold(moved.value, moved.rest, size)
-
-
-def _stacked(rows: list[Twofold]) -> Twofold:
-    value, rest, size = (
-        None if getattr(rows[0], name) is None else np.array([getattr(row, name) for row in rows])
-        for name in ("value", "rest", "size")
-    )
-    return Twofold(value, rest, size)
-
-
-def _beside(parts: list[Twofold]) -> Twofold:
-    value, size = (
-        np.concatenate([getattr(part, name) for part in parts], axis=1) for name in ("value", "size")
-    )
-    rest = None if parts[0].rest is None else np.concatenate([part.rest for part in parts], axis=1)
-    return Twofold(value, rest, size)
+    return _Work(number, inverse, low, high, beside([left, right]))

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bikestab import compiled, yamltext
+from bikestab import compiled, kernels, yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.config.file import parse_config
 from bikestab.errors import InputError
@@ -32,14 +32,14 @@ NAMES = ["dikarev1981", "meijaard2007", "kooijman2011", "sharp1971"]
 
 @needed
 def test_what_was_made_of_other_sources_is_not_taken(tmp_path):
-    for path in (compiled.LIBRARY, *compiled.LIBRARY.parent.glob("*.c")):
+    for path in (kernels.LIBRARY, *kernels.LIBRARY.parent.glob("*.c")):
         shutil.copy(path, tmp_path)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(compiled, "LIBRARY", tmp_path / compiled.LIBRARY.name)
-        assert compiled._library.__wrapped__() is not None
+        patch.setattr(kernels, "LIBRARY", tmp_path / kernels.LIBRARY.name)
+        assert kernels.library.__wrapped__() is not None
         with (tmp_path / "growth.c").open("a") as file:
             file.write("/* changed */")
-        assert compiled._library.__wrapped__() is None
+        assert kernels.library.__wrapped__() is None
 
 
 @needed
@@ -235,7 +235,7 @@ def test_it_is_another_scan_only_where_there_are_growth_rates(tmp_path):
 
 
 def test_without_it_one_message_says_what_to_do(tmp_path, monkeypatch):
-    monkeypatch.setattr(compiled, "_library", lambda: None)
+    monkeypatch.setattr(compiled, "library", lambda: None)
     with pytest.raises(InputError, match="kernel is not there") as raised:
         run_scan(config_of(tmp_path, "fast: true\n"))
     assert raised.value.key == ("fast",)

@@ -66,14 +66,14 @@ def test_powers_that_no_cell_has_are_left_out_of_the_cuts():
 
 def test_what_cuts_do_not_end_is_undecided(monkeypatch):
     near = polynomial(1.0, 1.0 + 2.0**-20)
-    monkeypatch.setattr(bikestab.isolation, "_DEPTH", 1)
+    monkeypatch.setattr(bikestab.isolation, "DEPTH", 1)
     assert not brackets(near, 1, COEFFICIENT)[1].any()
 
 
 @pytest.mark.parametrize("power", [-18, -24, -30, -36, -40])
 def test_zeros_close_to_each_other_take_few_cuts(monkeypatch, power):
     """(x − m)² ∓ 4^power times other factors: both zeros, or none, are known after a few cuts."""
-    monkeypatch.setattr(bikestab.isolation, "_DEPTH", 12)
+    monkeypatch.setattr(bikestab.isolation, "DEPTH", 12)
     middles = [Fraction(m) for m in (0.6, 1.1, 1.7, 5.3)]
     cells = [(m, two, other) for m in middles for two in (1, -1) for other in (0, 1)]
     rows = []
