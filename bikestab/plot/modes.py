@@ -30,7 +30,7 @@ STYLES: dict[str, tuple[str, float]] = {
     "castering": ("#009e73", 2.6),
     "real pair": ("#56b4e9", 2.0),
     "real": ("#7b5ea7", 2.0),
-    "weave 2": ("#003d5c", 1.4),
+    "weave 2": ("#6a8caf", 1.4),
     "capsize 2": ("#d55e00", 1.4),
     "pair 2": ("#cc79a7", 1.4),
 }

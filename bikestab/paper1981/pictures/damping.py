@@ -82,7 +82,7 @@ def _measures(ax: Axes, numbers: Damping) -> None:
         ax.plot(numbers.deltas, percent, color=colour, ls=style, lw=1.8, label=label)
     marked = 100 * THRESHOLDS["marked"]
     ax.axhline(marked, color="0.3", lw=0.8)
-    ax.text(numbers.deltas[0] * 1.2, marked * 1.1, f"marked: {marked:g} %", path_effects=HALO)
+    ax.text(numbers.deltas[0] * 1.2, marked * 1.1, f"a marked change: {marked:g} %", path_effects=HALO)
     ax.set(yscale="log", ylabel="|change| against δ = 0 [%]", ylim=(0.01, 400))
     _plain_ticks(ax.set_yticks, [0.01, 0.1, 1, 10, 100])
 

@@ -76,7 +76,7 @@ def _label_ends(ax: Axes, ends: list[tuple[float, float, str, str]], right: floa
     for x, y, name, colour in sorted(ends, key=lambda end: end[1]):
         if x < 0.97 * right or y > 0.97 * top:
             ax.text(
-                x - 0.012 * right,
+                x - 0.022 * right,
                 top * 0.985,
                 name,
                 color=colour,
@@ -88,7 +88,7 @@ def _label_ends(ax: Axes, ends: list[tuple[float, float, str, str]], right: floa
             )
             continue
         lowest = max(y, lowest + _LEAST_APART * top)
-        line = {"arrowstyle": "-", "color": colour, "lw": 0.6, "shrinkA": 0, "shrinkB": 0}
+        line = {"arrowstyle": "-", "color": colour, "lw": 0.6, "shrinkA": 0, "shrinkB": 0, "relpos": (0, 0.5)}
         ax.annotate(
             name, (x, y), (1.03 * right, lowest), color=colour, va="center", fontsize=9,
             annotation_clip=False, arrowprops=line,

@@ -22,7 +22,7 @@ from bikestab.plot.lines import draw_on_white, entry, legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.region.curves import Curve, trace
 
-_KINDS = {"no stable speed": "#ffffff", "bounded interval": "#bcd7ea", "no upper limit": "#e69f00"}
+_KINDS = {"no stable speed": "#ffffff", "bounded interval": "#bcd7ea", "no upper limit": "#fbe04a"}
 _TOP = 1.6 * SIGMA[1]  # of the picture, above the paper's box
 _INSET = DesignBox((0.0460, 0.0510), (0.1485, 0.1545))  # where two intervals are possible
 _INSET_AT = (0.77, 0.71, 0.21, 0.25)  # in the picture
@@ -88,7 +88,7 @@ def _no_offset(ax: Axes, bicycle: Bicycle) -> None:
     ax.text(
         0.285, 0.03, "b > 0: forks bent forwards", color="#00795a", ha="right", path_effects=HALO, zorder=5
     )
-    at = (0.2, bicycle.R2 / bicycle.c * np.tan(0.2))
+    at = (0.12, bicycle.R2 / bicycle.c * np.tan(0.12))
     ax.annotate(
         "b = 0", at, (6, -13), textcoords="offset points", color="#00795a", path_effects=HALO, zorder=5
     )

@@ -22,7 +22,7 @@ from bikestab.region.section import Section, zero_curves
 from bikestab.routh import conditions
 
 _SURFACES: dict[str, tuple[str, Any, str]] = {  # of each condition: colour (Okabe and Ito 2008), line, words
-    "p0": ("#d55e00", (0, (5, 1.5)), "p₀ = 0, capsize"),
+    "p0": ("#e69f00", (0, (5, 1.5)), "p₀ = 0, capsize"),
     "p1": ("#009e73", (0, (1, 1)), "p₁ = 0"),
     "p2": ("#cc79a7", (0, (3, 1, 1, 1)), "p₂ = 0"),
     "hurwitz3": ("#0072b2", "-", "Δ₃ = 0, weave"),

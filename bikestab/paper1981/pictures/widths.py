@@ -55,7 +55,7 @@ def _label_ends(ax: Axes, ends: list[tuple[float, float, str, Any]]) -> None:
     lowest = 0.0
     for x, y, name, colour in sorted(ends, key=lambda end: end[1]):
         lowest = max(y, lowest * _LEAST_RATIO)
-        line = {"arrowstyle": "-", "color": colour, "lw": 0.6, "shrinkA": 0, "shrinkB": 0}
+        line = {"arrowstyle": "-", "color": colour, "lw": 0.6, "shrinkA": 0, "shrinkB": 0, "relpos": (0, 0.5)}
         ax.annotate(
             name, (x, y), (1.03 * x, lowest), color=colour, va="center", fontsize=9, annotation_clip=False,
             arrowprops=line,

@@ -48,10 +48,10 @@ export async function drawPlane(at, shown, chosen) {
     return { type: "scatter", mode: "lines", name, legendgroup: name, showlegend, x, y, line: { color: ink, width: 1.6, dash }, hoverinfo: "skip" };
   });
   const straight = shown.straight.lam.length
-    ? [{ type: "scatter", mode: "lines", name: "fork offset 0", x: shown.straight.lam, y: shown.straight.sigma, line: { color: "#d55e00", width: 2, dash: "dash" }, hoverinfo: "skip" }]
+    ? [{ type: "scatter", mode: "lines", name: "fork offset 0", x: shown.straight.lam, y: shown.straight.sigma, line: { color: style("--soft"), width: 2, dash: "dashdot" }, hoverinfo: "skip" }]
     : [];
   const own = shown.own
-    ? [{ type: "scatter", mode: "markers", name: "its own design", x: [shown.own[0]], y: [shown.own[1]], marker: { symbol: "diamond-open", size: 13, color: "#d55e00", line: { width: 3 } }, hoverinfo: "skip" }]
+    ? [{ type: "scatter", mode: "markers", name: "its own design", x: [shown.own[0]], y: [shown.own[1]], marker: { symbol: "star", size: 15, color: "#e8308a", line: { width: 1.4, color: "#000" } }, hoverinfo: "skip" }]
     : [];
   await react(at, [
     { type: "scatter", mode: "markers", name: "chosen", x: [chosen.lam], y: [chosen.sigma], marker: { symbol: "cross-thin", size: 22, color: ink, line: { width: 3, color: ink } }, hoverinfo: "skip" },

@@ -9,10 +9,10 @@ import { plotly } from "./library.mjs";
 /** @typedef {import("./volumes.mjs").Shown} Shown */
 /** @typedef {import("./charts.mjs").Chosen} Chosen */
 
-// Okabe and Ito 2008; each name has a dash of its own too
+// Okabe and Ito 2008, as in the pictures of eigen
 const COLOURS = /** @type {Record<string, string>} */ ({
-  weave: "#0072b2", capsize: "#e69f00", castering: "#009e73", "real pair": "#56b4e9", real: "#56b4e9",
-  "pair 2": "#cc79a7", "weave 2": "#56b4e9", "capsize 2": "#d55e00",
+  weave: "#0072b2", capsize: "#e69f00", castering: "#009e73", "real pair": "#56b4e9", real: "#7b5ea7",
+  "pair 2": "#cc79a7", "weave 2": "#6a8caf", "capsize 2": "#d55e00",
 });
 const NAMES = Object.keys(COLOURS);
 
@@ -59,13 +59,15 @@ export async function drawModes(at, modes, chosen, shown, high) {
     return {
       type: "scatter", mode: "lines", name, legendgroup: name, x, y, showlegend: growth && some,
       line: { color: COLOURS[name], width: growth ? 2.6 : 1.4, dash: growth ? "solid" : "dot" }, connectgaps: false,
-      hovertemplate: `${name} ${growth ? "growth rate" : "frequency"} %{y:.3f} ${growth ? "1/s" : "rad/s"} at %{x:.3f} m/s<extra></extra>`,
+      hovertemplate: `${name} ${growth ? "growth rate" : "frequency"} %{y:.3f} ${growth ? "s⁻¹" : "rad/s"} at %{x:.3f} m/s<extra></extra>`,
     };
   });
-  await react(at, traces, layout({
+  const kinds = /** @type {const} */ ([["growth rate", "solid", 2.6], ["angular frequency", "dot", 1.4]]).map(([name, dash, width]) => (
+    { type: "scatter", mode: "lines", name, x: [null], y: [null], line: { color: style("--ink"), width, dash } }));
+  await react(at, [...traces, ...kinds], layout({
     shapes: bands(chosen.intervals, chosen.V, shown.box.V[1]),
     xaxis: { title: { text: "speed V [m/s]" }, range: shown.box.V },
-    yaxis: { title: { text: "growth rate [1/s], frequency [rad/s]" }, range: [-high, high], zeroline: true, zerolinewidth: 2 },
+    yaxis: { title: { text: "growth rate [s⁻¹], frequency [rad/s]" }, range: [-high, high], zeroline: true, zerolinewidth: 2 },
   }));
 }
 
@@ -76,8 +78,15 @@ export function moveModes(at, modes, chosen, shown) {
   return plotly().update(at, {
     x: traces.map((trace) => trace.x), y: traces.map((trace) => trace.y),
     showlegend: some.map((has, i) => has && i < NAMES.length),
-  }, { shapes: bands(chosen.intervals, chosen.V, shown.box.V[1]) });
+  }, { shapes: bands(chosen.intervals, chosen.V, shown.box.V[1]) }, [...traces.keys()]);
 }
+
+const EVERY = 30; // points of the root locus to an arrowhead, which points to higher speeds
+const POINTS = [...Array(4096).keys()];
+const ARROWS = {
+  angleref: "previous", opacity: 1, line: { width: 0 }, symbol: POINTS.map((i) => (i % EVERY === EVERY / 2 ? "arrow" : "circle")),
+  size: POINTS.map((i) => (i % EVERY === EVERY / 2 ? 10 : 2)),
+};
 
 /** @param {Modes} modes @param {[number, number][]} now */
 function locusTraces(modes, now) {
@@ -90,10 +99,10 @@ function locusTraces(modes, now) {
 /** @param {HTMLElement} at @param {Modes} modes @param {[number, number][]} now @param {number} high */
 export async function drawLocus(at, modes, now, high) {
   const traces = locusTraces(modes, now).map(({ x, y }, i) => (i < NAMES.length
-    ? { type: "scatter", mode: "lines+markers", name: NAMES[i], x, y, showlegend: y.some((value) => value !== null), line: { color: COLOURS[NAMES[i]], width: 1 }, marker: { size: 4, color: COLOURS[NAMES[i]] }, hoverinfo: "skip" }
+    ? { type: "scatter", mode: "lines+markers", name: NAMES[i], x, y, showlegend: y.some((value) => value !== null), line: { color: COLOURS[NAMES[i]], width: 2 }, marker: { ...ARROWS, color: COLOURS[NAMES[i]] }, hoverinfo: "skip" }
     : { type: "scatter", mode: "markers", name: "at this speed", x, y, marker: { size: 12, color: style("--ink"), symbol: "circle-open", line: { width: 3 } }, hovertemplate: "%{x:.4f} ± %{y:.4f}i<extra></extra>" }));
   await react(at, traces, layout({
-    xaxis: { title: { text: "real part [1/s]" }, range: [-high, high], zeroline: true, zerolinewidth: 2 },
+    xaxis: { title: { text: "real part [s⁻¹]" }, range: [-high, high], zeroline: true, zerolinewidth: 2 },
     yaxis: { title: { text: "imaginary part [rad/s]" }, range: [-high, high], zeroline: true },
   }));
 }

@@ -48,6 +48,28 @@ export function follow(table, intervals, speeds) {
   };
 }
 
+const CLOSER = 10; // points on both sides of a speed where two eigenvalues meet, each four times as near
+
+/** Speeds with more where two eigenvalues meet, beside which curves are steep. @param {Twofold[][]} table
+ * @param {number[]} speeds ascending [m/s] */
+export function closer(table, speeds) {
+  /** @param {number} V */
+  const pairs = (V) => quarticRoots(quartic(table, V), undefined).filter(([, y]) => y > 0).length;
+  const number = speeds.map(pairs);
+  const more = speeds.slice(1).flatMap((high, i) => {
+    if (number[i] === number[i + 1]) return [];
+    let [a, b] = [speeds[i], high];
+    for (let k = 0; k < 40; k += 1) {
+      const middle = (a + b) / 2;
+      if (pairs(middle) === number[i]) a = middle;
+      else b = middle;
+    }
+    const away = Array.from({ length: CLOSER }, (_, k) => (high - speeds[i]) * 4 ** (-k - 1));
+    return [a, b, ...away.flatMap((x) => [a - x, b + x])].filter((V) => V > speeds[i] && V < high);
+  });
+  return [...speeds, ...more].sort((a, b) => a - b);
+}
+
 /** The roots in the order in which they go on from the last ones. @param {Complex[]} last
  * @param {Complex[]} before @param {Complex[]} roots @returns {Complex[]} */
 function nearest(last, before, roots) {

@@ -9,7 +9,7 @@ import { element, input } from "./elements.mjs";
 import { intervalsOf, quarticAt } from "./intervals.mjs";
 import { about, answer, around, command } from "./labels.mjs";
 import { unpacked } from "./library.mjs";
-import { follow } from "./modes.mjs";
+import { closer, follow } from "./modes.mjs";
 import { pushed } from "./motion.mjs";
 import * as region from "./region.mjs";
 import { save } from "./saving.mjs";
@@ -46,7 +46,7 @@ function computed() {
   const intervals = intervalsOf(table);
   const [low, top] = volume().box.V;
   const speeds = Array.from({ length: SPEEDS }, (_, i) => Math.max(low + ((top - low) * i) / (SPEEDS - 1), 1e-6));
-  const modes = follow(table, intervals, speeds);
+  const modes = follow(table, intervals, closer(table, speeds));
   const now = eigenvaluesAt(quarticAt(table, [V, 0]));
   motion = pushed(machine(), lam, sigma, V, PUSH, SECONDS);
   spent = performance.now() - start;

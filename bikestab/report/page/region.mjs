@@ -20,6 +20,18 @@ function column(shown, { lam, sigma, V, intervals }) {
   ];
 }
 
+/** Round numbers beside an axis, without those at corners, where they would meet others; with the ``first``.
+ * @param {number[]} ends @param {boolean} first */
+function ticks([low, high], first) {
+  const rough = (high - low) / 4;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * ([1, 2, 5].find((x) => x * power >= 0.8 * rough) ?? 10);
+  const tickvals = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step < high - 0.3 * step; k += 1) tickvals.push(k * step);
+  if (!first && tickvals[0] < low + 0.3 * step) tickvals.shift();
+  return { tickmode: "array", tickvals, ticktext: tickvals.map((x) => String(Number(x.toPrecision(6))).replace("-", "−")) };
+}
+
 /** @param {HTMLElement} at @param {Shown} shown @param {Chosen} chosen */
 export async function drawRegion(at, shown, chosen) {
   const { points, triangles, kind } = shown.mesh;
@@ -45,9 +57,9 @@ export async function drawRegion(at, shown, chosen) {
     margin: { l: 0, r: 0, t: 0, b: 0 }, dragmode: "turntable", uirevision: "same",
     scene: {
       aspectmode: "cube", camera: { eye: { x: -1.65, y: -1.55, z: 0.85 }, center: { x: 0, y: 0, z: -0.12 } }, uirevision: "same",
-      xaxis: { ...axis, title: { text: "λ [rad]" }, range: shown.box.lam },
-      yaxis: { ...axis, title: { text: "σ" }, range: shown.box.sigma },
-      zaxis: { ...axis, title: { text: "V [m/s]" }, range: shown.box.V },
+      xaxis: { ...axis, title: { text: "λ [rad]" }, range: shown.box.lam, ...ticks(shown.box.lam, true) },
+      yaxis: { ...axis, title: { text: "σ" }, range: shown.box.sigma, ...ticks(shown.box.sigma, false) },
+      zaxis: { ...axis, title: { text: "V [m/s]" }, range: shown.box.V, ...ticks(shown.box.V, true) },
     },
   }), { ...CONFIG, scrollZoom: true });
 }
