@@ -48,9 +48,13 @@ def test_ranges_are_those_in_which_no_eigenvalue_grows(preset, name, ends, V):
 
 
 def _growth(machine, lam, sigma, V):
+    return np.array([roots.real.max() for roots in _roots(machine, lam, sigma, V)])
+
+
+def _roots(machine, lam, sigma, V):
     table = np.asarray(exact_table(machine, lam, sigma).value)
     p = np.moveaxis(table, (0, 1), (-2, -1)) @ V ** np.arange(4.0)
-    return np.array([np.roots(row[::-1]).real.max() for row in p])
+    return [np.roots(row[::-1]) for row in p]
 
 
 def test_a_narrow_range_between_two_conditions():
@@ -65,3 +69,22 @@ def test_a_narrow_range_between_two_conditions():
     ]
     assert stable_ranges(lambda x: np.ones((1, len(x)), bool), np.array([2.0, 1.0])) == [(1.0, 2.0)]
     assert stable_ranges(lambda x: np.ones((1, len(x)), bool), np.array([2.0])) == []
+
+
+def test_curves_lead_through_the_modes_and_on_to_where_they_meet():
+    """Their points are eigenvalues as numpy has them, named as at the values that they start from."""
+    bicycle = Bicycle.preset("kooijman2011")
+    values = np.linspace(0, 5, 6)
+    found = modes_against(bicycle, "delta", values, 4.5)
+    names = {str(name) for modes in found.modes for name in modes.names[:, 0]}
+    assert {curve.name for curve in found.curves} == names
+    for curve in found.curves:
+        machine, lam, sigma = varied(bicycle, {"delta": curve.x[::7]})
+        lam, sigma, _ = np.broadcast_arrays(lam, sigma, curve.x[::7])
+        for roots, s in zip(_roots(machine, lam, sigma, 4.5), curve.s[::7], strict=True):
+            assert np.abs(roots - s).min() < 1e-5 * max(abs(s), 1)  # some nearly meet
+    for modes, x in zip(found.modes, values, strict=True):
+        for s, name in zip(modes.eigenvalues[:, 0], modes.names[:, 0], strict=True):
+            if s.imag >= 0:
+                near = [c.name for c in found.curves if np.abs(c.s - s).min() < 1e-9 * abs(s)]
+                assert name in near, (x, name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import shlex
 import subprocess
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import bikestab as bs
 from bikestab.kinds import KINDS
@@ -326,3 +328,5 @@ def test_a_picture_is_saved(opened, what):
         assert download.value.suggested_filename == f"bikestab-{what}.{name.lower()}"
         content = Path(download.value.path()).read_bytes()
         assert content.startswith(b"\x89PNG" if name == "PNG" else b"<svg")
+        if name == "PNG":
+            assert Image.open(io.BytesIO(content)).convert("RGBA").getpixel((1, 1)) == (255, 255, 255, 255)

@@ -80,7 +80,3 @@ export function designAt(at, event, shown) {
   const within = ([low, high], share) => low + Math.min(Math.max(share, 0), 1) * (high - low);
   return { lam: within(shown.box.lam, u), sigma: within(shown.box.sigma, v) };
 }
-
-/** @param {HTMLElement} at @param {"png" | "svg"} format @param {string} filename */
-export const save = (at, format, filename) =>
-  plotly().downloadImage(at, { format, filename, width: 1000, height: 700, scale: format === "png" ? 2 : 1 });

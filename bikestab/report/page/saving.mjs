@@ -1,5 +1,6 @@
 // Charts and drawings → files.
 
+import { style } from "./charts.mjs";
 import { element, input } from "./elements.mjs";
 import { plotly } from "./library.mjs";
 
@@ -10,7 +11,9 @@ export async function save(format) {
   const what = /** @type {HTMLSelectElement} */ (/** @type {unknown} */ (input("which"))).value;
   const filename = `bikestab-${what}`;
   if (what !== "side") {
-    plotly().downloadImage(element(what), { ...SIZE, format, filename, scale: format === "png" ? 2 : 1 });
+    const { data, layout } = /** @type {any} */ (element(what));
+    const opaque = { ...layout, paper_bgcolor: style("--ground") }; // a chart lets the page's ground through
+    plotly().downloadImage({ data, layout: opaque }, { ...SIZE, format, filename, scale: format === "png" ? 2 : 1 });
     return;
   }
   const address = URL.createObjectURL(new Blob([drawing()], { type: "image/svg+xml" }));
