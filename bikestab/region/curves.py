@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 from bikestab.family import Family
 from bikestab.model import Floats
 from bikestab.region.contours import contours, refined
-from bikestab.region.events import Box
+from bikestab.region.events import Box, event_at
+from bikestab.region.following import followed
 from bikestab.region.pieces import NAMES, Curve, met, rejoined
 from bikestab.region.skeleton import CurveName
+from bikestab.region.space import SPATIAL, Space
+from bikestab.region.spans import spans
 from bikestab.region.stretches import stretches
 from bikestab.routh import conditions
 
@@ -33,24 +36,45 @@ def trace(
     """Every piece of every curve in a box x × y × V [m/s] of a family.
 
     Sign changes of the curve functions between the nodes of a grid (``samples`` per axis) are refined
-    along its lines, so a closed piece smaller than a cell of this grid is not seen.
+    along its lines, so a closed piece smaller than a cell of this grid is not seen. Where damping or gains mix
+    odd and even powers of V, curves at speeds between 0 and infinity are followed from there in (x, y, V).
     """
     box = Box(family, np.array([x, y], dtype=float), V)
     nodes = np.linspace(0, 1, samples)
     keys, scales, found = [], [], []
+    seeds: list[tuple[CurveName, Floats]] = []
     for key, values in box.values(np.array(np.meshgrid(nodes, nodes, indexing="ij"))).items():
         scale = np.abs(values).max()
         lines = contours((nodes, nodes), values / scale) if scale > 0 else []
+        if key in SPATIAL and box.mixed:
+            seeds += [(key, line.T) for line in lines]
+            continue
         keys += [key] * len(lines)
         scales += [scale] * len(lines)
         found += lines
+    spatial = _in_space(box, seeds, float(nodes[1]))
     lines = refined(partial(box.value_of_each, keys), found, (nodes, nodes))
     pieces: dict[CurveName, list[Curve]] = {}
     for key, line, zero in zip(keys, lines, _zeros(box, keys, scales, lines), strict=True):
         for stretch in _without_jumps(zero, line):
             pieces.setdefault(key, []).extend(stretches(box, key, stretch, float(nodes[1])))
-    curves = [curve for some in pieces.values() for curve in rejoined(some)]
+    curves = [*spatial, *(curve for some in pieces.values() for curve in rejoined(some))]
     return met(curves, box.ends[:, 1] - box.ends[:, 0])
+
+
+def _in_space(box: Box, seeds: list[tuple[CurveName, Floats]], step: float) -> list[Curve]:
+    """The pieces of the curves of which there are points (2, n) near them."""
+    found = [(key, points, event_at(box, key, points).V) for key, points in seeds]
+    speeds = np.concatenate([V[np.isfinite(V)] for _, _, V in found]) if found else np.empty(0)
+    if not len(speeds):
+        return []
+    space = Space(box, float(np.median(speeds)))
+    points = np.concatenate([np.vstack([points, space.place(V)]) for _, points, V in found], axis=1)
+    number = np.repeat(np.arange(len(found)), [len(V) for _, _, V in found])
+    curve = np.array([SPATIAL.index(key) for key, _, _ in found])[number]
+    some = np.isfinite(points).all(axis=0)
+    lines = followed(space, curve[some], points[:, some], number[some], step)
+    return [piece for line in lines for piece in spans(space, line, step)]
 
 
 def _zeros(

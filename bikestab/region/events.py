@@ -20,6 +20,7 @@ from bikestab.routh import conditions
 from bikestab.speeds import intervals_of
 
 _UNIT_SAMPLES = 17  # of the box, per axis
+_ROUNDED = 1e-9  # of the largest coefficient, of tables of middling size: what is less may be zero
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,12 @@ class Box:
         """The units in which the tables of its designs are of middling size."""
         nodes = np.linspace(0, 1, _UNIT_SAMPLES)
         return units(self.table(np.array(np.meshgrid(nodes, nodes))))
+
+    @cached_property
+    def mixed(self) -> bool:
+        """Whether damping or gains mix odd and even powers of V in the conditions."""
+        nodes = np.linspace(0, 1, _UNIT_SAMPLES)
+        return speed_polynomials(self.table(np.array(np.meshgrid(nodes, nodes)))).power == 1
 
     def real(self, points: Floats) -> Floats:
         low, high = self.ends.T.reshape(2, 2, *(1,) * (points.ndim - 1))
@@ -75,20 +82,21 @@ class Event(NamedTuple):
         return np.where(self.holds.all(axis=0), 1 + self.closes, 0)
 
 
-def event_at(box: Box, key: CurveName, points: Floats) -> Event:
-    """What happens at points (2, point) of a curve."""
+def event_at(box: Box, key: CurveName, points: Floats, V: Floats | None = None) -> Event:
+    """What happens at points (2, point) of a curve, at speeds V (point,) where these are known."""
     if key.endswith(("infinity", "rest")):
-        event = _event_at_an_end(key, speed_polynomials(box.table(points)).polynomials)
+        table = in_units(box.table(points), box.units)
+        event = _event_at_an_end(key, speed_polynomials(table).polynomials)
     elif key == "singular inertia":
         return _event_of_inertia(box, points)
     else:
-        event = _event_within(key, box.table(points))
+        event = _event_within(key, box.table(points), V)
     V, (low, high) = event.V, box.V
     inside = (low <= V) & (high >= V)
     return event._replace(holds=np.vstack([event.holds, inside]), ends=(*event.ends, "box"))
 
 
-def _event_within(key: CurveName, table: Floats) -> Event:
+def _event_within(key: CurveName, table: Floats, V: Floats | None) -> Event:
     # designs to the right, V upwards, s = stable, w = weave and c = capsize speeds:
     #
     #    fold: closes     or two become one      meet: closes      or an end changes
@@ -101,7 +109,7 @@ def _event_within(key: CurveName, table: Floats) -> Event:
     #
     # The curvature of hurwitz3 tells the first two apart, the slopes of p0 and hurwitz3 the others.
     polynomials, power = speed_polynomials(table)
-    x = _common_root(key, polynomials)
+    x = _common_root(key, polynomials) if V is None else V**power
     V, exists = x ** (1 / power), np.isfinite(x)
     weave, p0 = polynomials["hurwitz3"], polynomials["p0"]
     with np.errstate(invalid="ignore"):
@@ -135,9 +143,8 @@ def _event_at_an_end(key: CurveName, polynomials: dict[str, Floats]) -> Event:
     names = [name for name in ("p0", "p1", "p2", "p3", "p4", "hurwitz3") if name != own]
     values = np.array([polynomials[name][at] for name in names])
     # p1 is a factor of hurwitz3's coefficient, and then zero but for rounding
-    allowed = np.array(
-        [1e-9 * np.abs(v).max() if name == "p1" else 0.0 for name, v in zip(names, values, strict=True)]
-    )
+    rounded = _ROUNDED * np.abs(polynomials["p1"]).max()
+    allowed = np.array([rounded if name == "p1" else 0.0 for name in names])
     where = key.split(" ", 1)[1]
     ends = {
         "p0": f"capsize {where}",

@@ -112,7 +112,7 @@ Conditions = Callable[[Floats], Floats]  # points (n, k) → values (n, k), each
 
 
 def _within(family: Family, names: tuple[str, ...]) -> Conditions:
-    """The conditions at points (x, y, V), each divided by the size of its terms."""
+    """The conditions at points (x, y, V), each divided by the size of its terms at the first one."""
 
     def conditions(points: Floats) -> Floats:
         table = family.table(points[0], points[1])
@@ -124,9 +124,9 @@ def _within(family: Family, names: tuple[str, ...]) -> Conditions:
         for name in names:
             if name == "pairs":
                 p0, p2, p4 = (value(polynomials[k], V) for k in ("p0", "p2", "p4"))
-                rows.append((p2 * p2 - 4 * p4 * p0) / (p2 * p2 + np.abs(4 * p4 * p0)))
+                rows.append((p2 * p2 - 4 * p4 * p0) / (p2 * p2 + np.abs(4 * p4 * p0))[0])
             else:
-                rows.append(value(own[name], V) / value(np.abs(own[name]), np.abs(V)))
+                rows.append(value(own[name], V) / value(np.abs(own[name][:, 0]), np.abs(V[0])))
         return np.array(rows)
 
     return conditions
@@ -159,13 +159,17 @@ def _newton(conditions: Conditions, start: Floats, size: Floats) -> Floats | Non
         for _ in range(_ROUNDS):
             values = conditions(at[:, np.newaxis] + steps)
             slope = (values[:, 1 : n + 1] - values[:, n + 1 :]) / (2 * _STEP)
-            if not np.all(np.isfinite(values)) or np.linalg.cond(slope) > 1e10:
+            row = np.abs(slope).max(axis=1)
+            column = np.abs(slope / row[:, np.newaxis]).max(axis=0)
+            slope = slope / row[:, np.newaxis] / column
+            if not np.all(np.isfinite(slope)) or np.linalg.cond(slope) > 1e10:
                 return None
-            move = -np.linalg.solve(slope, values[:, 0])
+            move = -np.linalg.solve(slope, values[:, 0] / row) / column
             at = at + move * size
             away = np.abs((at - start) / size)
             if away[:2].max() > _NEAR or away[2:].max(initial=0.0) > _NEAR_V:
                 return None
             if np.abs(move).max() < _DONE:
                 return at
-    return at if np.abs(move).max() < 1e-11 else None
+    # V is known less well where it is large: there it changes much within rounding of the plane
+    return at if np.abs(move[:2]).max() < 1e-11 and np.abs(move[2:]).max(initial=0.0) < 1e-6 else None

@@ -15,7 +15,7 @@ from bikestab.region.onto import ROUNDS, Function, across
 from bikestab.region.pieces import HOP, NAMES, Curve
 from bikestab.region.skeleton import CurveName
 
-_NEAR_END = 4.0 * 1.5 ** np.arange(-9, 1)  # grid steps: where points are put towards an end of a curve
+NEAR_END = 4.0 * 1.5 ** np.arange(-9, 1)  # grid steps: where points are put towards an end of a curve
 _SECTIONS = 64  # of a stretch of curve at a time, when an end is looked for in it
 _ZERO = 1e-6  # of a curve's function at some distance: what is larger is not on the curve
 _FINE = np.linspace(0, 1, _SECTIONS + 1)  # of a cell of the grid, where a curve turns within it
@@ -146,7 +146,7 @@ def _denser(box: Box, key: CurveName, run: Floats, ends: tuple[str, str], step: 
         w = int(np.argmax(np.abs(away[:, 1])))
         way = away[w] * np.sign(away[w, 1])
         straight = int(np.argmin(np.append(np.diff(way) > 0, False)))  # as far as w goes on
-        stations = _NEAR_END * step
+        stations = NEAR_END * step
         stations = stations[stations <= 0.5 * way[straight]]  # the rest belongs to the other end
         last = int(np.argmax(way > stations[-1])) if len(stations) else 0
         new = np.empty((2, len(stations)))

