@@ -36,8 +36,8 @@ def trace(
     """Every piece of every curve in a box x × y × V [m/s] of a family.
 
     Sign changes of the curve functions between the nodes of a grid (``samples`` per axis) are refined
-    along its lines, so a closed piece smaller than a cell of this grid is not seen. Where damping or gains mix
-    odd and even powers of V, curves at speeds between 0 and infinity are followed from there in (x, y, V).
+    along its lines, so a closed piece smaller than a cell of this grid is not seen. Where damping or gains
+    mix odd and even powers of V, curves at speeds between 0 and infinity are followed from there in space.
     """
     box = Box(family, np.array([x, y], dtype=float), V)
     nodes = np.linspace(0, 1, samples)

@@ -110,8 +110,9 @@ def command(
             "this picture is of one machine", param_hint="--locus" if locus else "--output"
         )
     files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
+    ranges = None
     if view.kind:
-        text, results = _viewed(machines, given, view, model, csv_file, output)
+        text, results, ranges = _viewed(machines, given, view, model, csv_file, output)
     else:
         found = [_followed(machine, given, speeds, model) for machine in machines]
         if csv_file:
@@ -121,7 +122,7 @@ def command(
         text = told(found[0], model) if len(found) == 1 else told_all(found, model)
         results = [[_result(each)] for each in found]
     if as_json:
-        print_json(record_of(machines, model, results, files))
+        print_json(record_of(machines, model, results, files, ranges))
         return
     for name in files.values():
         tell_file(name)
@@ -131,8 +132,8 @@ def command(
 
 def _viewed(
     machines: list[Chosen], given: Given, view: View, model: Model, csv_file: str | None, output: str | None
-) -> tuple[str, list[list[dict[str, Any]]]]:
-    """What is shown at one speed: the text and the results of each machine; its files are written."""
+) -> tuple[str, list[list[dict[str, Any]]], list[list[dict[str, Any]]] | None]:
+    """What is shown at one speed: text, and results and ranges of each machine; its files are written."""
     from bikestab_cli.eigen_views import save_picture, shown
 
     found = [shown(machine, given, view, model) for machine in machines]
@@ -147,7 +148,8 @@ def _viewed(
     if output:
         save_picture(found, output)
     results = [each.record.get("all", [each.record]) for each in found]
-    return "\n\n\n".join(each.text for each in found), results
+    ranges = [each.record["ranges"] for each in found] if view.kind == "over" else None
+    return "\n\n\n".join(each.text for each in found), results, ranges
 
 
 def _followed(machine: Chosen, given: Given, speeds: list[float], model: Model) -> Followed:

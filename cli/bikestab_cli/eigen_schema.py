@@ -9,6 +9,8 @@ from bikestab_cli.shapes import (
     OVER,
     TEXTS,
     VERDICT,
+    WHOSE,
+    named,
     num,
     of_machines,
     record,
@@ -47,11 +49,21 @@ _MOTION = record(
     y_front=some(NUMBERS, "front contact, sideways [m]"),
 )  # fmt: skip
 _PUSH = {"type": "object", "additionalProperties": NUMBERS, "description": "states at the start [rad, rad/s]"}
+_RANGES = some(
+    record(
+        "values of the parameter, from one to the other, in which motion is stable at the speed",
+        ("bicycle", "set"), **WHOSE, at=num("the speed [m/s]"),
+        start=named(NUMBERS, "an exact end of stability, or the least value of --over, in SI units"),
+        stop=named(NUMBERS, "the same above it, or the greatest value"),
+    ),
+    "with --over: where the parameter's values are stable at the speed",
+)  # fmt: skip
 _ALONG = ("intervals", "marginal", "coalescences", "V", "branches")  # without --shapes and --push
-EIGEN = of_machines(
+_EIGEN = of_machines(
     "a design; with --shapes or --push what these give",
     (*_ALONG, "over", "at", "shapes", "push", "motion"),
     over=OVER, **DESIGN, intervals=INTERVALS, **VERDICT, coalescences=_COALESCENCES,
     V=some(NUMBERS, "speeds [m/s]"), branches=_BRANCHES, at=num("the speed [m/s]"), shapes=_SHAPES,
     push=_PUSH, motion=_MOTION,
 )  # fmt: skip
+EIGEN = {**_EIGEN, "properties": {**_EIGEN["properties"], "ranges": _RANGES}}

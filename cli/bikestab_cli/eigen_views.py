@@ -200,7 +200,10 @@ def _against(machine: Chosen, given: Given, view: View, model: Model) -> Shown:
         return draw_against(machine.words, found, float(view.at or 0), unit)
 
     text = told_against(machine, found, view.at, unit, model)
-    return Shown({"all": records}, text, against_columns(found), lambda: against_blocks(found), draw)
+    ranges = [{"at": view.at, "start": {name: start}, "stop": {name: stop}} for start, stop in found.stable]
+    return Shown(
+        {"all": records, "ranges": ranges}, text, against_columns(found), lambda: against_blocks(found), draw
+    )
 
 
 def _speed(bicycle: Any, lam: float, sigma: float, view: View, model: Model) -> float:

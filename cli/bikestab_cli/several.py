@@ -135,23 +135,26 @@ def _check_once(bicycle: Bicycle, changes: Collection[str], given: Collection[st
 
 def record_of(
     machines: Sequence[Chosen], model: str, results: Sequence[Sequence[Mapping[str, Any]]],
-    files: Mapping[str, str] | None = None,
+    files: Mapping[str, str] | None = None, ranges: Sequence[Sequence[Mapping[str, Any]]] | None = None,
 ) -> dict[str, Any]:  # fmt: skip
     """What --json prints of machines and the results of each: docs/json.md has the shape.
 
-    Of several machines, and of one with other values, each result tells which it is of.
+    Of several machines, and of one with other values, each result tells which it is of, and each of the
+    ``ranges`` of a parameter.
     """
     several = len(machines) > 1 or machines[0].set
-    listed = []
-    for machine, own in zip(machines, results, strict=True):
-        whose = {"bicycle": machine.bicycle.name, "set": machine.set} if several else {}
-        listed += [{**whose, **result} for result in own]
+
+    def listed(parts: Sequence[Sequence[Mapping[str, Any]]]) -> list[dict[str, Any]]:
+        whose = [{"bicycle": each.bicycle.name, "set": each.set} if several else {} for each in machines]
+        return [{**one, **part} for one, own in zip(whose, parts, strict=True) for part in own]
+
     bicycles = [each.bicycle for each in machines]
     names, deltas = ([*dict.fromkeys(x)] for x in ([b.name for b in bicycles], [b.delta for b in bicycles]))
     return {
         "bicycle": names[0] if len(names) == 1 else names,
         "model": model,
         "delta": deltas[0] if len(deltas) == 1 else deltas,
-        "results": listed,
+        **({} if ranges is None else {"ranges": listed(ranges)}),
+        "results": listed(results),
         **({"files": dict(files)} if files else {}),
     }

@@ -81,6 +81,26 @@ def test_over_a_parameter(bikestab):
     assert [row["delta"] for row in rows("a.csv")][3:5] == ["0.0", "1.0"]
 
 
+def test_ranges_of_a_parameter(bikestab):
+    """Their ends are where vrange of a machine there has an end at that speed, and the text tells them."""
+    args = ("--over", "delta=0:5:11", "--at", "4.5", "--set", "mB=80,90")
+    found = json.loads(bikestab("eigen", *BENCHMARK, *args, "--json")[1])
+    assert [(each["set"], each["at"], each["start"]) for each in found["ranges"]] == [
+        ({"mB": mB}, 4.5, {"delta": 0}) for mB in (80, 90)
+    ]
+    text = bikestab("eigen", *BENCHMARK, *args)[1]
+    for each in found["ranges"]:
+        delta = each["stop"]["delta"]
+        assert f"stable: 0 to {delta:.10g} kg m²/s" in text
+        machine = ("--set", f"mB={each['set']['mB']}", "--set", f"delta={delta!r}", "--json")
+        (result,) = json.loads(bikestab("vrange", *BENCHMARK, *machine)[1])["results"]
+        assert result["intervals"][0]["V1"] == pytest.approx(4.5, abs=1e-12)
+    (one,) = json.loads(bikestab("eigen", *BENCHMARK, *args[:4], "--json")[1])["ranges"]
+    assert one.keys() == {"at", "start", "stop"}
+    assert "ranges" not in json.loads(bikestab("eigen", *BENCHMARK, "--json")[1])
+    assert json.loads(bikestab("eigen", *BENCHMARK, *args[:2], "--at", "1", "--json")[1])["ranges"] == []
+
+
 @pytest.mark.parametrize("name", ["lam", "head_angle", "sigma", "trail", "offset", "mB", "w", "m1"])
 def test_over_any_parameter(name):
     from bikestab.variants import own_value
