@@ -24,6 +24,7 @@ from bikestab_cli.shapes import (
     named,
     num,
     of_machines,
+    or_problems,
     record,
     some,
     whole,
@@ -132,9 +133,11 @@ _MACHINE = record(
     ),
 )  # fmt: skip
 SCHEMAS: dict[str, Schema] = {
-    "vrange": of_machines(
-        "a design", ("spread", "over"), over=OVER, **DESIGN, intervals=INTERVALS, **VERDICT,
-        nearest=either(_NEAREST, NULL, text="null where there is a stable speed"), spread=_SPREAD,
+    "vrange": or_problems(
+        of_machines(
+            "a design", ("spread", "over"), over=OVER, **DESIGN, intervals=INTERVALS, **VERDICT,
+            nearest=either(_NEAREST, NULL, text="null where there is a stable speed"), spread=_SPREAD,
+        )
     ),
     "eigen": EIGEN,
     "design": of_machines(

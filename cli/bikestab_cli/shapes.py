@@ -94,3 +94,13 @@ def of_machines(text: str, optional: tuple[str, ...] = (), /, **properties: Sche
         model=MODEL,
         delta=either(NUMBERS, some(NUMBERS, "several"), text=f"steering damping [kg m²/s]: {one_or_all}"),
     )
+
+
+def or_problems(schema: Schema) -> Schema:
+    """The shape of answers about machines of which some may have no design."""
+    results = schema["properties"]["results"]
+    problem = record(
+        "one of several machines that has no design", **WHOSE, error=words("why, and what to do")
+    )
+    either_ = {**results, "items": either(results["items"], problem, text=results["items"]["description"])}
+    return {**schema, "properties": {**schema["properties"], "results": either_}}

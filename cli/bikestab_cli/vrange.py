@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_designs, is_single
@@ -22,6 +23,7 @@ from bikestab_cli.vrange_over import show_over
 from bikestab_cli.vrange_words import Found, told_all, told_one
 
 if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
     from bikestab.model import Model
 
 
@@ -51,6 +53,8 @@ def command(
     The ends are exact roots, not read off a grid, and each is named: weave (an oscillation starts), capsize
     (a slow fall starts), rest (V = 0) or unbounded. Without a tilt or a trail the bicycle's own are
     taken. A range START:STOP:NUM gives a table, and so do several --bicycle and several values of --set.
+
+    Of several machines one that has no tilt or trail of its own is left out, and told of: exit code 2.
 
     Two of head angle, trail and fork offset give the third; an offset alone keeps the bicycle's head angle.
 
@@ -97,32 +101,68 @@ def command(
         return
     axis = _axis_drawn(given) if output else ""
     single = is_single(given) and len(machines) == 1
-    found = [_found(machine, given, model, deviations, as_json or single) for machine in machines]
+    found = [
+        _found(machine, given, model, deviations, as_json or single, several=len(machines) > 1)
+        for machine in machines
+    ]
+    shown = [each for each in found if not each.problem]
+    if len(machines) > 1 and not shown:
+        raise click.UsageError(_advice(found[0]), click.get_current_context())
     files = {}
     if output:
         from bikestab.plot.ends import draw_ends
         from bikestab.plot.files import save
 
-        drawn = [(each.machine.words, with_spreads(each.answers, each.spreads)) for each in found]
+        drawn = [(each.machine.words, with_spreads(each.answers, each.spreads)) for each in shown]
         save(draw_ends(drawn, axis), Path(output))
         files["picture"] = output
     if as_json:
-        print_json(
-            record_of(machines, model, [with_spreads(each.answers, each.spreads) for each in found], files)
-        )
+        print_json(record_of(machines, model, [_results(each) for each in found], files))
     elif output:
         tell_file(output)
     else:
         click.echo(told_one(found[0], model, single) if len(machines) == 1 else told_all(found, model))
+    for each in found:
+        if each.problem:
+            click.echo(f"error: {_advice(each)}", err=True)
+    if len(shown) < len(found):
+        click.get_current_context().exit(2)
+
+
+def _results(found: Found) -> Sequence[Mapping[str, Any]]:
+    return [{"error": _advice(found)}] if found.problem else with_spreads(found.answers, found.spreads)
+
+
+def _advice(found: Found) -> str:
+    """Why a machine is left out, and what to do."""
+    options = [option for option, word in (("--lam", "tilt"), ("--sigma", "trail")) if word in found.problem]
+    given = f"give {' and '.join(options)}, of all machines then, or a file of it with its own"
+    return f"{found.machine.words} has {found.problem}: {given}"
+
+
+def _missing(bicycle: Bicycle, given: Given) -> str:
+    """What a bicycle lacks for a design, if it has not all of one and nothing gives it; else nothing."""
+    lacks = [
+        word
+        for word, own, options in (
+            ("tilt", bicycle.lam, ("lam", "head_angle")),
+            ("trail", bicycle.sigma, ("sigma", "trail")),
+        )
+        if own is None and not any(name in given for name in (*options, "offset"))
+    ]
+    return f"no {' and '.join(lacks)} of its own" if lacks else ""
 
 
 def _found(
-    machine: Chosen, given: Given, model: Model, deviations: tuple[bool, dict[str, float]], nearest: bool
-) -> Found:
+    machine: Chosen, given: Given, model: Model, deviations: tuple[bool, dict[str, float]], nearest: bool,
+    *, several: bool,
+) -> Found:  # fmt: skip
     """The answers about one machine; a table has no room for what is ``nearest``."""
     from bikestab.region.answers import stable_speeds
 
     bicycle = machine.bicycle
+    if several and (missing := _missing(bicycle, given)):
+        return Found(machine, [], [], missing)
     lam, sigma = designs_chosen(bicycle, given)
     with told_as_options():
         answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=nearest)

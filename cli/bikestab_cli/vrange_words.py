@@ -22,18 +22,22 @@ _FEWEST = 3  # where parameters have long names
 
 
 class Found(NamedTuple):
-    """A machine, its designs' stable speeds, and how far they are known where that is asked for."""
+    """A machine, its designs' stable speeds, and how far they are known where that is asked for.
+
+    Or the ``problem`` why it has no designs, where it is one of several.
+    """
 
     machine: Chosen
     answers: list[Answer]
     spreads: list[Spread]
+    problem: str = ""
 
 
 def told_one(found: Found, model: Model, single: bool) -> str:
     """The table of one machine, what is open in it, and what would help a ``single`` unstable design."""
     from bikestab_cli.spread_words import known_lines
 
-    machine, answers, spreads = found
+    machine, answers, spreads, _ = found
     changed = f" ({machine.changes})" if machine.set else ""
     parts = [heading(machine.bicycle, model) + changed + "\n", table(_HEAD, _rows(answers, 12))]
     notes = [f"marginal at {_design(each)}: {each['reason']}" for each in answers if each["marginal"]]
@@ -50,8 +54,8 @@ def told_all(found: list[Found], model: Model) -> str:
     from bikestab_cli.spread_words import known_lines
 
     rows, notes = [], []
-    for machine, answers, spreads in found:
-        lines = _rows(answers, _FEWER)
+    for machine, answers, spreads, problem in found:
+        lines = _rows(answers, _FEWER) or [["", "", "", problem.replace(" of its own", "\nof its own"), ""]]
         rows += [[machine.stacked if i == 0 else "", *line] for i, line in enumerate(lines)]
         open_ = [(answer, f"marginal: {answer['reason']}") for answer in answers if answer["marginal"]]
         known = [

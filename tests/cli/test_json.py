@@ -26,6 +26,7 @@ CASES = [
     ("vrange", "--lam", "0.1", "--sigma", "0.08"),
     ("vrange", *BENCHMARK, "--bicycle", "kooijman2011", "--set", "g=9.81,3", "-o", "a.png"),
     ("vrange", *BENCHMARK, "--sd", "c=30mm"),
+    ("vrange", *BENCHMARK, "--bicycle", "dikarev1981"),
     ("eigen", *BENCHMARK, "--V", "0:5:3", "--csv", "a.csv"),
     ("eigen", "--lam", "0.1", "--sigma", "0.08", "--set", "m1=80,90", "--V", "2"),
     ("eigen", *BENCHMARK, "--shapes", "--at", "5"),
@@ -138,5 +139,5 @@ def test_tables_fit_80_columns(small, args):
     if args[0] == "info":
         assert small("scan", "tiny.yaml", "--quiet")[0] == 0
     code, out, err = small(*args)
-    assert code in (0, 1), err
+    assert code in (0, 1) or (code == 2 and out), err  # a table of several, one of which cannot be used
     assert [line for line in out.splitlines() if len(line) > 80 and "/" not in line] == []

@@ -379,6 +379,26 @@ def test_several_machines_in_one_table_and_json(without_warnings):
     assert "set" not in alone["results"][0]
 
 
+def test_one_of_several_machines_without_a_design(bikestab):
+    """The others are told of all the same, as check tells of all its files."""
+    three = [word for name in ("meijaard2007", "dikarev1981", "kooijman2011") for word in ("--bicycle", name)]
+    code, out, err = bikestab("vrange", *three)
+    assert code == 2
+    assert [word in out for word in ("4.292382536", "no tilt and trail", "2.841008323")] == [True] * 3
+    assert "error: dikarev1981 has no tilt and trail of its own: give --lam and --sigma" in err
+    code, out, _ = bikestab("vrange", *three, "-o", "a.png", "--json")
+    found = json.loads(out)["results"]
+    assert (code, [each["bicycle"] for each in found]) == (2, three[1::2])
+    assert ["error" in each for each in found] == [False, True, False]
+    assert Path("a.png").stat().st_size > 1000
+    code, out, err = bikestab("vrange", *three, "--lam", "0.2")
+    assert (code, "dikarev1981 has no trail of its own: give --sigma, of all" in err) == (2, True)
+    assert bikestab("vrange", *three, "--lam", "0.2", "--sigma", "0.08")[0] == 0
+    code, out, err = bikestab("vrange", "--set", "m1=80,90")
+    assert (code, out) == (2, "")
+    assert "dikarev1981 m1=80 has no tilt and trail of its own" in err
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
