@@ -8,11 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
-
-Indices = NDArray[np.intp]
-
-SPEED = 5.0  # m/s; roots are near each other in V/(V + SPEED), in which V → ∞ is a place like any other
-_NO_PAIRS = np.empty((2, 0), np.intp)
+from bikestab.scan.links import NO_LINKS, Indices, links_of, pairs, place_of
 
 
 class Direction:
@@ -87,7 +83,7 @@ class Direction:
                 sheet[a] = a = sheet[sheet[a]]
             return a
 
-        joint = np.concatenate([_NO_PAIRS, *self._joint], axis=1)
+        joint = np.concatenate([NO_LINKS, *self._joint], axis=1)
         links, times = np.unique(joint, axis=1, return_counts=True)
         for k in np.argsort(-times, kind="stable"):
             a, b = sorted(root(end) for end in links[:, k].tolist())
@@ -111,39 +107,6 @@ class Direction:
             links = np.concatenate([links_of(V, axis) for axis in (0, 1)], axis=1)
             sheet[there] = _single_valued(links, cell)
         return sheet, int(sheet.max(initial=-1)) + 1
-
-
-def place_of(V: Floats) -> Floats:
-    return V / (V + SPEED)
-
-
-def links_of(V: Floats, axis: int) -> Indices:
-    """Pairs (2, link) of roots (…, λ, σ, root), numbered as in V[isfinite(V)], that continue each other.
-
-    They do so along λ (axis 0) or σ (1).
-
-    Each is the other's nearest, so a pair born at a fold between two cells takes no root's partner away.
-    """
-    x, there = place_of(V), np.isfinite(V)
-    if not there.any():
-        return _NO_PAIRS
-    number = np.cumsum(there.ravel()).reshape(V.shape) - 1
-    a, b = (
-        (np.s_[..., :-1, :, :], np.s_[..., 1:, :, :]), (np.s_[..., :-1, :], np.s_[..., 1:, :]),
-    )[axis]  # fmt: skip
-    far = np.abs(x[a][..., :, np.newaxis] - x[b][..., np.newaxis, :])
-    far[np.isnan(far)] = np.inf
-    ahead, back = far.argmin(axis=-1), far.argmin(axis=-2)
-    mutual = np.take_along_axis(back, ahead, axis=-1) == np.arange(V.shape[-1])
-    mutual &= there[a] & np.take_along_axis(there[b], ahead, axis=-1)
-    return np.array([number[a][mutual], np.take_along_axis(number[b], ahead, axis=-1)[mutual]])
-
-
-def pairs(a: Indices, b: Indices) -> Indices:
-    """The pairs (2, pair) of different sheets that a cell of ``a`` and the same one of ``b`` have."""
-    one, other = (x.reshape(-1) for x in np.broadcast_arrays(a[..., :, np.newaxis], b[..., np.newaxis, :]))
-    some = (one >= 0) & (other >= 0) & (one != other)
-    return np.unique(np.array([one[some], other[some]]), axis=1)
 
 
 def _side_by_side(pair: tuple[NDArray, NDArray], axis: int) -> NDArray:

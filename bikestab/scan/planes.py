@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
-from bikestab.scan.linking import Indices, connected, first_free, links_of, pairs, place_of, rank_of
+from bikestab.scan.linking import connected, first_free, rank_of
+from bikestab.scan.links import Indices, links_of, pairs, place_of
 from bikestab.scan.sheets import EDGES, Roots, Sheets, directed, is_end, sheets
 from bikestab.speeds import Intervals
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
 from bikestab.routh import CONDITIONS, condition_polynomials
-from bikestab.scan.linking import SPEED
+from bikestab.scan.links import SPEED
 from bikestab.scan.sheets import Roots, critical_roots, sheets
 from bikestab.speeds import CAPSIZE, WEAVE, Intervals, critical_speeds, intervals_of
 from tests.strategies import machines
