@@ -41,6 +41,8 @@ from bikestab.model import Floats
 from bikestab.notation import MEIJAARD, OPTIONAL
 from bikestab.rider import RIDER
 
+_BRACKETS = 20  # of a bicycle's numbers, which need two
+
 
 def check_volume(path: Path) -> None:
     """Raise InputError, which names the object, unless a file is a whole volume."""
@@ -194,6 +196,8 @@ def _check_numbers(file: h5py.File, points: int) -> None:
 def bicycle_numbers(text: str) -> dict[str, Any]:
     """The parameters in ``bicycle_parameters``; raises InputError unless they are those of a bicycle."""
     key = ("bicycle_parameters",)
+    if text.count("[") + text.count("{") > _BRACKETS:  # which may take all the room for recursion
+        raise InputError("is no JSON of numbers alone", key=key)
     try:
         numbers = json.loads(text)
     except (ValueError, RecursionError):

@@ -177,9 +177,7 @@ def test_one_negative_coefficient_is_unstable(k):
     assert intervals_of(table_of(dict(zip([(j, 0) for j in range(5)], p, strict=True)))).number == 0
 
 
-@pytest.mark.parametrize(
-    "p", [(0, 1, 3, 2, 1), (1.5625, 3.125 / 4, 3.125, 1.25, 1)], ids=["p0", "hurwitz3"]
-)
+@pytest.mark.parametrize("p", [(0, 1, 3, 2, 1), (1.5625, 3.125 / 4, 3.125, 1.25, 1)], ids=["p0", "hurwitz3"])
 def test_none_where_a_condition_is_zero_at_all_speeds(p):
     """(s³ + 2 s² + 3 s + 1) s, and (s² + 0.625) (s² + 1.25 s + 2.5)."""
     table = table_of({(k, 0): value for k, value in enumerate(p)})
