@@ -164,7 +164,8 @@ def test_a_double_root_on_a_speed_of_the_grid_is_no_disagreement():
     seen = checked(table, V=np.array([0.0, 1, 2, 3]))
     guess = critical(table).zeros["p4"]
     assert not guess.sure.any()
-    assert guess.V.ravel().tolist() in ([], [2, 2])
+    assert guess.V.size in (0, 2)
+    assert np.abs(guess.V - 2).max(initial=0) < 1e-10
     assert seen.largest == 0
     assert (seen.loose, seen.touching) in ((0, 1), (2, 0))
 
