@@ -93,7 +93,7 @@ def put_clocks(clock: Clock, jobs: int, workers: list[int]) -> None:
         )  # fmt: skip
         clock.around(tile, "packed", "compression")
         return
-    process = multiprocessing.get_context("spawn").Process
+    process = multiprocessing.process.BaseProcess
     kill = process.kill
 
     def noted(self: Any) -> None:

@@ -92,7 +92,7 @@ def _answer(task: Callable[[], T], pipe: int, first: int) -> None:
     """What the second process does: nothing of the first one's is closed, flushed or told of twice."""
     try:
         faulthandler.disable()
-        _end_with(first)
+        end_with(first)
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         nowhere = os.open(os.devnull, os.O_RDWR)
         for stream in (0, 1, 2):
@@ -104,7 +104,7 @@ def _answer(task: Callable[[], T], pipe: int, first: int) -> None:
         os._exit(0)
 
 
-def _end_with(first: int) -> None:
+def end_with(first: int) -> None:
     """Let the first process's end, however it comes, be that of this one, in the middle of its task."""
     with suppress(ImportError, OSError, AttributeError):  # without it the task is done, for nobody
         from ctypes import CDLL

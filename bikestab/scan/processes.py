@@ -15,6 +15,7 @@ import traceback
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from queue import SimpleQueue
@@ -22,9 +23,11 @@ from types import ModuleType
 from typing import Any, cast
 
 from bikestab.aside import cores as cores
+from bikestab.aside import end_with
 from bikestab.errors import InputError, WorkersLost
 from bikestab.scan.tile import Finished, Tile, compute
 
+_FILES = 1024  # a process has open, at most
 Numbered = tuple[int, Tile]
 
 
@@ -79,9 +82,10 @@ def _hand(worker: Connection, todo: Iterator[tuple[int, Any]], workers: dict[Con
 @contextmanager
 def _worker(work: Callable[[Any], Any]) -> Iterator[Connection]:
     """A process that answers each tile with what ``work`` makes of it."""
-    context = multiprocessing.get_context("spawn")
+    context, copied = _context()
     ours, theirs = context.Pipe()
-    process = context.Process(target=_serve, args=(theirs, work), daemon=True)
+    target = partial(_copy, first=os.getpid()) if copied else _serve
+    process = context.Process(target=target, args=(theirs, work), daemon=True)
     try:
         with undisturbed():
             process.start()
@@ -92,6 +96,24 @@ def _worker(work: Callable[[Any], Any]) -> Iterator[Connection]:
             process.kill()  # it holds nothing, and a tile at work would only be waited for
             process.join()
         ours.close()
+
+
+def _context() -> tuple[Any, bool]:
+    """How processes are made, and whether as copies of this one, which are there at once.
+
+    Beside other threads, whose locks a copy would hold for ever, each is a new program.
+    """
+    copied = sys.platform.startswith("linux") and threading.active_count() == 1
+    return multiprocessing.get_context("fork" if copied else "spawn"), copied
+
+
+def _copy(parent: Connection, work: Callable[[Any], Any], first: int) -> None:
+    """``_serve`` in a copy of the ``first`` process, without its files: some of them are locked."""
+    end_with(first)
+    keep = parent.fileno()
+    os.closerange(3, keep)
+    os.closerange(keep + 1, _FILES)
+    _serve(parent, work)
 
 
 @contextmanager
