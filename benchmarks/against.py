@@ -43,16 +43,15 @@ ROWS = {  # the command, what has to be there, and how many times as fast it sho
 }
 NAMES = {f"scan {CONFIG} --force {SMALL}": "`scan` of 8³ points without slices"}
 LEAST = 3  # pairs
+OTHERS = "PYTHONDONTWRITEBYTECODE", "PYTHONPATH"  # an installed program is itself, and compiled only once
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in OTHERS}
 
 
 def measured(programs: Path, command: str, folder: Path) -> tuple[float, float]:
     """Seconds of processor time and of wall time of one run."""
-    environment = dict(os.environ)
-    for name in ("PYTHONDONTWRITEBYTECODE", "PYTHONPATH"):  # an installed program is compiled only once
-        environment.pop(name, None)
     before, start = os.times(), perf_counter()
     done = subprocess.run(
-        [programs / "bikestab", *command.split()], cwd=folder, env=environment, capture_output=True, text=True
+        [programs / "bikestab", *command.split()], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True
     )
     wall, now = perf_counter() - start, os.times()
     if done.returncode:
@@ -89,7 +88,9 @@ def columns(builds: tuple[Path, Path], pairs: int) -> None:
     found: list[list[dict[str, float]]] = [[], []]
     for _ in range(pairs):
         for k, programs in enumerate(builds):
-            run = subprocess.run([programs / "python", child], check=True, capture_output=True, cwd="/")
+            run = subprocess.run(
+                [programs / "python", child], check=True, capture_output=True, cwd="/", env=ENVIRONMENT
+            )
             found[k].append(json.loads(run.stdout))
     print(f"{'':48} {'before':>10} {'now':>10} {'ratio':>6}   (ns; medians of {pairs})")
     for name in found[0][0]:
