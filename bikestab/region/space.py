@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.model import Floats, in_powers
+from bikestab.polynomials import value
 from bikestab.region.events import Box
-from bikestab.region.skeleton import CurveName, in_units
+from bikestab.region.skeleton import CurveName, in_units, speed_polynomials
 
 # the two conditions of each: which of h = hurwitz3, p0, q = p2 p3 − p4 p1, p1, p3, and which derivative of it
 CONDITIONS: dict[CurveName, tuple[tuple[int, int], tuple[int, int]]] = {
@@ -28,6 +29,7 @@ _WHICH, _ORDER = np.array(list(CONDITIONS.values())).transpose(2, 1, 0)  # (cond
 _STEP = 1e-6  # of the box, for differences
 _ASIDE = np.array([[0, 1, -1, 0, 0], [0, 0, 0, 1, -1]])[..., np.newaxis] * _STEP
 _FARTHEST = 0.02  # of the box, in a step of Newton's method
+_CROSSED = 3e-3  # of their terms: so small p1 and p3 are zero where a fold is looked for by differences
 _SAMPLES = 9  # of the box, per axis, to see which powers of V there are
 
 
@@ -48,6 +50,13 @@ class Space:
     def place(self, V: Floats) -> Floats:
         """The coordinate w of speeds."""
         return V / (V + self.V0)
+
+    def crossed(self, points: Floats) -> NDArray[np.bool_]:
+        """Where, at points (3, n), p1 = p3 = 0 as far as differences tell: hurwitz3 has no slope there."""
+        polynomials, power = speed_polynomials(self.box.table(points[:2]))
+        V = self.speed(points[2]) ** power
+        parts = [value(p, V) / value(np.abs(p), V) for p in (polynomials["p1"], polynomials["p3"])]
+        return np.asarray(np.abs(parts).max(axis=0) < _CROSSED)
 
     def onto(
         self,

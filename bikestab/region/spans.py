@@ -59,11 +59,18 @@ def _beside(space: Space, curve: int, points: Floats) -> Floats:
 
 
 def _event(space: Space, curve: int, points: Floats) -> Event:
-    return event_at(space.box, SPATIAL[curve], points[:2], space.speed(points[2]))
+    event = event_at(space.box, SPATIAL[curve], points[:2], space.speed(points[2]))
+    if SPATIAL[curve] != "fold":
+        return event
+    # a crossing has a double root of hurwitz3, too; a fold becomes one where two pairs are equal
+    alone = ~space.crossed(points)
+    return event._replace(holds=np.vstack([alone, event.holds]), ends=("crossing", *event.ends))
 
 
 def _left(curve: int, point: Floats) -> str:
-    """What a line goes to where it leaves the box."""
+    """What a line goes to where it leaves the box, or has no direction any more: a fold at a crossing."""
+    if ((point > 0) & (point < 1)).all():
+        return "fold"
     own = "capsize" if "meet" in SPATIAL[curve] else "weave"
     return {0.0: f"{own} at rest", 1.0: f"{own} at infinity"}.get(float(point[2]), "box")
 

@@ -218,6 +218,31 @@ class Resonant:
         return table
 
 
+def test_a_double_hopf_point_of_a_bicycle_in_40_digits():
+    """One without feedback, at a negative trail: two pairs of eigenvalues are equal on the axis."""
+    random = np.random.default_rng([16, 42])
+    delta = 10 ** random.uniform(-2, 2)
+    bicycle = random_machine(random, delta)
+    assert not bicycle.warnings
+    box = (0.0, 0.1), (-0.25, -0.15)
+    points = points_of(Family(bicycle), trace(Family(bicycle), *box, samples=61), *box)
+    (point,) = [point for point in points if point.name == "double Hopf"]
+    s = bs.eigenvalues(bicycle, point.V, point.x, point.y)
+    assert np.abs(s.real).max() < 1e-6
+    assert np.abs(s.imag) == pytest.approx([1.08608157] * 4, abs=1e-6)
+    exact = {name: mpf(x) for name, x in bicycle.numbers().items() if x is not None}
+
+    def equations(lam, sigma, V):
+        table = polynomial(exact, lam, sigma, delta, "refined")
+        p = [at({j: x for (i, j), x in table.items() if i == k}, V) for k in range(5)]
+        return [p[1], p[3], p[2] ** 2 - 4 * p[4] * p[0]]
+
+    with mp.workdps(40):
+        start = [mpf(point.x), mpf(point.y), mpf(point.V)]
+        found = mp.findroot(equations, start, tol=1e-25, verify=False, maxsteps=15)
+        assert max(abs(a - b) for a, b in zip(found, start, strict=True)) < 1e-10
+
+
 def test_a_double_hopf_point():
     point = _solved(Resonant(), np.array([0.004, -0.007]), 2.1, ("fold",), np.array([1.0, 1.0]))
     assert point.name == "double Hopf"
