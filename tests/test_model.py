@@ -34,6 +34,20 @@ def canonical(machine, lam, sigma):
     return benchmark_par_to_canonical({**machine, "lam": lam, "c": sigma * machine["w"]})
 
 
+def test_two_rows_of_more_cells_than_are_worked_on_at_a_time():
+    bicycle = Bicycle.preset("dikarev1981")
+    lam, sigma = np.array([[0.1], [0.3]]), np.linspace(0, 0.1, 13_000)
+    table = characteristic_table(bicycle, np.broadcast_to(lam, (2, 13_000)), sigma)
+    for row in range(2):
+        np.testing.assert_array_equal(table[:, :, row], characteristic_table(bicycle, lam[row], sigma))
+
+
+def test_gains_in_proportion_to_the_inverse_speed_have_a_column_of_their_own():
+    bicycle = Bicycle.preset("meijaard2007").replaced({"k_phi_per_V": 1.5})
+    assert characteristic_table(bicycle, 0.3, 0.08).shape == (5, 5)
+    assert exact_table(bicycle, 0.3, 0.08).shape == (5, 5)
+
+
 @settings(deadline=None, max_examples=100, derandomize=True)
 @given(machine=meijaard_machines(), lam=lams, sigma=sigmas)
 def test_canonical_matrices_of_bicycleparameters(machine, lam, sigma):

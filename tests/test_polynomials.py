@@ -69,6 +69,14 @@ def test_products_with_nothing():
         np.testing.assert_array_equal(found, np.zeros((3, 5)))
 
 
+def test_products_of_one_with_many():
+    one, many = random(2), random(3, 5)
+    expected = [Polynomial(one) * p for p in each(many)]
+    for found in (polynomials.product(one, many), polynomials.product(many, one)):
+        for i, p in enumerate(expected):
+            np.testing.assert_allclose(found[:, i], p.coef, rtol=0, atol=1e-13)
+
+
 def test_powers_that_no_cell_has():
     c = np.zeros((6, 2))
     assert polynomials.used_powers(c) == []
