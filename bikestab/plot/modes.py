@@ -27,7 +27,7 @@ from bikestab.speeds import KINDS, intervals_of
 STYLES: dict[str, tuple[str, float]] = {
     "weave": ("#0072b2", 2.0),
     "capsize": ("#e69f00", 2.0),
-    "castering": ("#009e73", 2.6),
+    "castering": ("#00432f", 2.6),  # as green as on the page, and darker than weave in greyscale
     "real pair": ("#56b4e9", 2.0),
     "real": ("#7b5ea7", 2.0),
     "weave 2": ("#6a8caf", 1.4),
