@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from bikestab.casteljau import beside, extremes, parts, stacked
 from bikestab.model import Floats
-from bikestab.rounding import CUT, POLYNOMIAL
+from bikestab.rounding import COEFFICIENT, CUT, POLYNOMIAL
 from bikestab.signchanges import sign_changes
 from bikestab.twofold import Double, Twofold
 
@@ -74,7 +74,7 @@ def brackets(coefficients: Sequence[Twofold | None], number: int, error: float) 
 
 
 def guessed(coefficients: Sequence[Twofold | None], number: int) -> tuple[Brackets, _Flags]:
-    """As ``brackets``, by the coefficients' signs as they are; no cell is sure."""
+    """As ``brackets``, by the coefficients' signs as they are, without double zeros; no cell is sure."""
     work = _halves(coefficients, number, MIDDLES[0])
     return _isolated(work, number, MIDDLES[0], 0.0, 0.0)[0], np.zeros(number, bool)
 
@@ -105,8 +105,11 @@ def _isolated(
         at = np.where(work.low == 0, 0.125, 0.5)
         if work.b.rest is not None:
             pair = np.flatnonzero(changes == 2)
-            at[pair], double = extremes(work.b.at((slice(None), pair)), at[pair], share)
-            undecided[work.cell[pair[double & (share > 0)]]] = True
+            at[pair], double = extremes(work.b.at((slice(None), pair)), at[pair], share or 16 * COEFFICIENT)
+            undecided[work.cell[pair[double]]] |= share > 0
+            apart = np.ones(len(at), bool)
+            apart[pair[double]] = False
+            work, at = work.chosen(apart), at[apart]
         work = _cut(work, at, share)
     else:
         undecided[work.cell] = True

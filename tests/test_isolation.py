@@ -11,7 +11,7 @@ from bikestab import signchanges
 from bikestab.bicycle import Bicycle
 from bikestab.certain import signs, zeros_of
 from bikestab.corrected import zeros_between
-from bikestab.isolation import _sign_changes, _whole, brackets, isolated
+from bikestab.isolation import _sign_changes, _whole, brackets, guessed, isolated
 from bikestab.model import exact_table
 from bikestab.rounding import COEFFICIENT, CUT
 from bikestab.speeds import CAPSIZE, REST, UNBOUNDED, WEAVE, _Ends, _out_of_order
@@ -50,6 +50,18 @@ def test_the_plain_pass_leaves_what_it_cannot_tell():
     near = polynomial(1.0, 1.0 + 2.0**-20)
     assert brackets(near, 1, COEFFICIENT)[1].all()
     assert zeros_of(near, 1).V[:, 0].tolist() == [1.0, 1.0 + 2.0**-20]
+
+
+def test_a_guess_has_the_zeros_that_are_apart_and_no_double_one():
+    """Whose sign rounding decides: none leaves the sign as it is, and the cell is not sure."""
+    for m in np.random.default_rng(5).integers(1, 1 << 12, 12) / 2.0**9:
+        for others in ((), (0.3125,), (m + 2.0**-16, 9.0)):
+            (cell, low, high, _), sure = guessed(polynomial(m, m, *others), 1)
+            assert not sure.any()
+            assert len(cell) == len(others)
+            assert all(np.any((low < zero) & (zero < high)) for zero in others)
+    near = polynomial(1.0, 1.0 + 2.0**-20)
+    assert len(guessed(near, 1)[0].cell) == 2
 
 
 def test_powers_that_no_cell_has_are_left_out_of_the_cuts():

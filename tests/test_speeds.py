@@ -233,6 +233,25 @@ def test_where_one_sign_says_no_the_others_need_not_be_certain():
     assert (found.number, found.marginal) == (0, 0)
 
 
+@pytest.mark.parametrize("speed", [0.34375, 1.375, 2.0, 2.15625])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_where_capsize_is_only_touched_the_answer_is_marginal_and_has_no_interval_more(sign, speed):
+    """p0 = ± (V − speed)², and hurwitz3 = 80 − 16 p0; next to it p0 with two zeros 2^−19 apart is certain."""
+    rows = {(1, 0): 4, (2, 0): 6, (3, 0): 4, (4, 0): 1, (0, 1): -2 * sign * speed, (0, 2): sign}
+    touched = intervals_of(table_of({**rows, (0, 0): sign * speed**2}))
+    assert touched.marginal == 1
+    ends = [0.0, speed + math.sqrt(5)] if sign > 0 else [math.nan, math.nan]
+    np.testing.assert_allclose([touched.V1[0], touched.V2[0]], ends, rtol=1e-15)
+    assert (touched.lower, touched.upper) == ((REST, WEAVE) if sign > 0 else (NONE, NONE))
+    apart = intervals_of(table_of({**rows, (0, 0): sign * (speed**2 - 2.0**-40)}))
+    assert not apart.marginal.any()
+    near = [speed - 2.0**-20, speed + 2.0**-20]
+    expected = [(0.0, near[0]), (near[1], speed + math.sqrt(5))] if sign > 0 else [tuple(near)]
+    np.testing.assert_allclose([*zip(apart.V1, apart.V2, strict=True)], expected, rtol=1e-12)
+    kinds = [*zip(apart.lower, apart.upper, strict=True)]
+    assert kinds == ([(REST, CAPSIZE), (CAPSIZE, WEAVE)] if sign > 0 else [(CAPSIZE, CAPSIZE)])
+
+
 def test_an_ordinary_answer_is_certain_and_has_narrow_bounds():
     bicycle = Bicycle.preset("dikarev1981")
     found = intervals_of(characteristic_table(bicycle, 0.2, 0.08))
