@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 LONGEST, HEAVIEST, HEAVIEST_FRONT = 10.0, 2000.0, 200.0  # m, kg: several times what real machines have
 _FRONT = {"mR", "mF", "mH", "m2"}  # wheels and fork
 _MILLIMETRES = 300.0  # a longest length from here on is no bicycle's in centimetres
-_CENTIMETRES = 75.0  # and one below is none, but one in inches
+_CENTIMETRES = 75.0  # a wheelbase below this is none in centimetres, but one in inches
 _STRONGEST = 100.0  # m/s², several times what any planet has
 
 
@@ -89,9 +89,10 @@ def _other_units(given: Mapping[str, float], notation: Mapping[str, str]) -> tup
     short, words = "mm", "millimetres"
     trail, wheelbase = ("c", "w") if "w" in given else ("trail", "c")
     alone = trail in lengths and wheelbase not in lengths  # no trail is a few decimetres
-    longest = max(map(abs, lengths.values()), default=0)
-    if longest < _MILLIMETRES and not alone:
-        short, words = ("cm", "centimetres") if longest >= _CENTIMETRES else ("in", "inches")
+    if max(map(abs, lengths.values()), default=0) < _MILLIMETRES and not alone:
+        short, words = "cm", "centimetres"
+        if lengths.get(wheelbase, _CENTIMETRES) < _CENTIMETRES:
+            short, words = "in", "inches"
     found = ((lengths, "m", short, words), (masses, "kg", "g", "grams"))
     mistakes = [
         f"{_listed(values, si)}: no bicycle has that; {words} are written {_first(values):g}{unit}"

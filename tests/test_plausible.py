@@ -43,6 +43,8 @@ def test_one_number_in_another_unit():
     assert text == "zB = -900 m: no bicycle has that; millimetres are written -900mm"
     (text,) = BENCHMARK.replaced({"c": 55}).warnings
     assert text == "c = 55 m: no bicycle has that; millimetres are written 55mm"
+    (text,) = BENCHMARK.replaced({"rR": 30, "rF": 35}).warnings
+    assert text.endswith("no bicycle has that; centimetres are written 30cm")
     (text,) = BENCHMARK.replaced({"g": 9810}).warnings
     assert text == "g = 9810 m/s²: no planet has that; it is about 9.81 m/s² here"
     (text,) = BENCHMARK.replaced({"mF": 3000}).warnings

@@ -8,10 +8,9 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
-from bikestab_cli.messages import folded
 from bikestab_cli.options import FILE, NAME, check_files, json_option, of_file
 from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, print_json, table, tell_file
-from bikestab_cli.streams import visible
+from bikestab_cli.streams import tell_error
 
 from bikestab.errors import BikestabError, InputError
 
@@ -74,7 +73,7 @@ def command(configs: tuple[str, ...], junit: str | None, as_json: bool) -> None:
     codes = [0, *(2 if isinstance(each.error, InputError) else 3 for each in checked if each.error)]
     for each in checked:
         if each.error:
-            click.echo("\n".join(folded(visible(f"error: {each.error}"))), err=True)
+            tell_error(str(each.error))
     if failed:
         click.echo(f"{failed} of {number} expectations failed", err=True)
     click.get_current_context().exit(max(*codes, 1 if failed else 0))

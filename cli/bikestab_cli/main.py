@@ -11,8 +11,8 @@ from contextlib import suppress
 from pathlib import Path
 
 import click
-from bikestab_cli.messages import cut, folded
-from bikestab_cli.streams import visible, visible_streams
+from bikestab_cli.messages import cut
+from bikestab_cli.streams import tell_error, visible_streams
 
 from bikestab import __version__
 from bikestab.errors import BikestabError, InputError, ScanError, nearest
@@ -148,7 +148,7 @@ def _check_memory() -> None:
 
 
 def _tell(code: int, message: str, hint: str = "") -> int:
-    click.echo("\n".join(folded(visible(f"error: {message}"), hint)), err=True)
+    tell_error(message, hint)
     return code
 
 

@@ -99,8 +99,10 @@ def of_machines(text: str, optional: tuple[str, ...] = (), /, **properties: Sche
 def or_problems(schema: Schema) -> Schema:
     """The shape of answers about machines of which some may have no design."""
     results = schema["properties"]["results"]
+    nothing = {name: {**NULL, "description": "there is none"} for name in (*DESIGN, "nearest")}
     problem = record(
-        "one of several machines that has no design", **WHOSE, error=words("why, and what to do")
-    )
+        "one of several machines that has no design", **WHOSE, **nothing,
+        intervals={**some({}, "empty"), "maxItems": 0}, error=words("why, and what to do"),
+    )  # fmt: skip
     either_ = {**results, "items": either(results["items"], problem, text=results["items"]["description"])}
     return {**schema, "properties": {**schema["properties"], "results": either_}}

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any, TextIO
 
-from bikestab_cli.messages import cut
+import click
+from bikestab_cli.messages import cut, folded
 
 _HIDDEN = re.compile(  # controls but tab and newline, what changes the direction of text, halves of pairs
     "[\0-\b\v\f\x0e-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]|\r(?!\n)"
@@ -26,6 +27,11 @@ _SPELT = {
 def visible(text: str) -> str:
     """With an escape such as ``\\u001b`` for each control character."""
     return _HIDDEN.sub(_escape, text)
+
+
+def tell_error(message: str, hint: str = "") -> None:
+    """One message on stderr, of at most three lines."""
+    click.echo("\n".join(folded(visible(f"error: {message}"), hint)), err=True)
 
 
 def _escape(match: re.Match[str]) -> str:

@@ -19,6 +19,7 @@ from bikestab_cli.options import (
 from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.several import Chosen, Values, check_varied, machines_chosen, record_of, several_machines
 from bikestab_cli.spreads import spreads, with_spreads
+from bikestab_cli.streams import tell_error
 from bikestab_cli.vrange_over import show_over
 from bikestab_cli.vrange_words import Found, told_all, told_one
 
@@ -107,7 +108,7 @@ def command(
     ]
     shown = [each for each in found if not each.problem]
     if len(machines) > 1 and not shown:
-        raise click.UsageError(_advice(found[0]), click.get_current_context())
+        raise click.UsageError(_advice(*found), click.get_current_context())
     files = {}
     if output:
         from bikestab.plot.ends import draw_ends
@@ -122,22 +123,26 @@ def command(
         tell_file(output)
     else:
         click.echo(told_one(found[0], model, single) if len(machines) == 1 else told_all(found, model))
-    for each in found:
-        if each.problem:
-            click.echo(f"error: {_advice(each)}", err=True)
-    if len(shown) < len(found):
+    if left_out := [each for each in found if each.problem]:
+        tell_error(_advice(*left_out))
         click.get_current_context().exit(2)
 
 
 def _results(found: Found) -> Sequence[Mapping[str, Any]]:
-    return [{"error": _advice(found)}] if found.problem else with_spreads(found.answers, found.spreads)
+    if not found.problem:
+        return with_spreads(found.answers, found.spreads)
+    nothing = dict.fromkeys(("lam", "sigma", "head_angle_deg", "trail", "offset", "nearest"))
+    return [{**nothing, "intervals": [], "error": _advice(found)}]
 
 
-def _advice(found: Found) -> str:
-    """Why a machine is left out, and what to do."""
-    options = [option for option, word in (("--lam", "tilt"), ("--sigma", "trail")) if word in found.problem]
-    given = f"give {' and '.join(options)}, of all machines then, or a file of it with its own"
-    return f"{found.machine.words} has {found.problem}: {given}"
+def _advice(*found: Found) -> str:
+    """Why machines are left out, and what to do."""
+    first, *others = found
+    words = ", ".join(each.machine.words for each in found)
+    lacks = [word for word in ("tilt", "trail") if any(word in each.problem for each in found)]
+    has = f"have no {' and '.join(lacks)} of their own" if others else f"has {first.problem}"
+    options = [option for option, word in (("--lam", "tilt"), ("--sigma", "trail")) if word in lacks]
+    return f"{words} {has}: give {' and '.join(options)}, of all machines then, or files with their own"
 
 
 def _missing(bicycle: Bicycle, given: Given) -> str:

@@ -390,13 +390,24 @@ def test_one_of_several_machines_without_a_design(bikestab):
     found = json.loads(out)["results"]
     assert (code, [each["bicycle"] for each in found]) == (2, three[1::2])
     assert ["error" in each for each in found] == [False, True, False]
+    assert [len(each["intervals"]) for each in found] == [1, 0, 1]
+    assert found[1]["lam"] is None
     assert Path("a.png").stat().st_size > 1000
     code, out, err = bikestab("vrange", *three, "--lam", "0.2")
     assert (code, "dikarev1981 has no trail of its own: give --sigma, of all" in err) == (2, True)
     assert bikestab("vrange", *three, "--lam", "0.2", "--sigma", "0.08")[0] == 0
     code, out, err = bikestab("vrange", "--set", "m1=80,90")
     assert (code, out) == (2, "")
-    assert "dikarev1981 m1=80 has no tilt and trail of its own" in err
+    assert "dikarev1981 m1=80, dikarev1981 m1=90 have no tilt and trail of their own" in " ".join(err.split())
+    many = [word for mass in range(40, 100) for word in ("--bicycle", f"m{mass}.yaml")]
+    text = bikestab("bicycles", "dikarev1981")[1]
+    for name in many[1::2]:
+        Path(name).write_text(text.replace("name: dikarev1981", f"name: {name[:3]}"), encoding="utf-8")
+    code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", *many)
+    lines = err[err.index("error: ") :].splitlines()
+    assert (code, len(lines), max(map(len, lines)) <= 200) == (2, 3, True)
+    assert "m40, m41" in err
+    assert "give --lam and --sigma" in err
 
 
 @pytest.mark.parametrize(
