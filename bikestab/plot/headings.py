@@ -28,7 +28,7 @@ def short(name: str) -> str:
 def set_title(ax: Axes, *lines: str, panels: int = 1, **options: Any) -> None:
     """Give axes, one of so many ``panels`` side by side, a title of lines, wrapped and cut after two rows.
 
-    No quantity is parted from its value and unit, and a minus is none of the hyphens.
+    Words that fit a row are whole, quantities are not parted from value and unit, a minus is no hyphen.
     """
     figure: Any = ax.figure
     rows = [row for line in lines for row in _rows(line, int(_ON_AN_INCH * figure.get_figwidth() / panels))]
@@ -38,16 +38,24 @@ def set_title(ax: Axes, *lines: str, panels: int = 1, **options: Any) -> None:
 
 
 def _rows(line: str, width: int) -> list[str]:
-    line = re.sub(r"(?<![\w.)])-(?=\d)", "−", line)
+    line = re.sub(r"(?<![\w.)])-(?=\d)", "−", " ".join(line.split()))
     line = re.sub(
         r" = |(?<=\d) (?=[a-z])|(?<=[a-z]) (?=[a-z]+²)", lambda gap: gap[0].replace(" ", _KEPT), line
     )
     line = re.sub(r"\([^()]{1,30}\)", lambda words: words[0].replace(" ", _KEPT), line)
-    rows = textwrap.wrap(line, width, max_lines=_ROWS, placeholder=" …")
-    if len(textwrap.wrap(line, width)) == len(rows):  # nothing is cut: rows about as long as each other
-        narrower = (textwrap.wrap(line, less) for less in range(width, 0, -1))
+    words = line.split(" ")
+    line = " ".join(word if len(word) <= width else word.replace(_KEPT, " ") for word in words)
+    rows = _wrapped(line, width, max_lines=_ROWS, placeholder=" …")
+    if len(_wrapped(line, width)) == len(rows):  # nothing is cut: rows about as long as each other
+        least = max([1, *(len(word) for word in line.split(" ") if len(word) <= width)])
+        narrower = (_wrapped(line, less) for less in range(width, least - 1, -1))
         *_, rows = takewhile(lambda wrapped: len(wrapped) == len(rows), narrower)
     return [row.replace(_KEPT, " ") for row in rows] or [""]
+
+
+def _wrapped(line: str, width: int, **options: Any) -> list[str]:
+    """Rows of whole words, unless one is wider."""
+    return textwrap.wrap(line, width, break_on_hyphens=False, **options)
 
 
 def text_width(text: str, size: float) -> float:

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from bikestab.plot.files import save
-from bikestab.plot.headings import set_title, short
+from bikestab.plot.headings import _rows, set_title, short
 
 
 def drawn(tmp_path, *lines):
@@ -43,3 +43,13 @@ def test_any_script(tmp_path):
     title = drawn(tmp_path, "a\x07b 日本 \U0001f6b2 \u202e\udc80 \U0010ffff c")
     assert title.startswith("a\N{REPLACEMENT CHARACTER}b ")
     assert title.endswith("\N{REPLACEMENT CHARACTER} c")
+
+
+def test_words_that_fit_a_row_stay_whole():
+    name = "meijaard2007_with_child_and_two_bags_90"
+    assert short(name) == name
+    rows = _rows(f"{name}: eigenvalues at 5 m/s", 60)
+    assert rows == [f"{name}:", "eigenvalues at 5 m/s"]
+    assert _rows("a (head angle 72.0000000 degrees) b", 30) == ["a (head angle", "72.0000000 degrees) b"]
+    assert _rows("one two-three four", 12) == ["one", "two-three …"]
+    assert _rows("a" * 100, 60) == ["a" * 50] * 2
