@@ -8,9 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from bikestab.design.effects import Row
 from bikestab.plot.headings import set_title, short
+from bikestab.plot.lines import legend_below
 from bikestab.plot.settings import own_settings
 
 _COLORS = ("#004488", "#DDAA33")  # Tol 2021, high contrast
@@ -63,21 +65,21 @@ def draw_bars(panels: Sequence[Panel], words: str, results: Sequence[str] = ("",
     figure = Figure(figsize=(_PANEL * max(len(panels), 1), 1.4 + _BAR * max(most, 4)), layout="constrained")
     for i, panel in enumerate(panels):
         ax = figure.add_subplot(1, len(panels), i + 1)
-        _draw(ax, panel, results)
+        _draw(ax, panel, len(results))
         ax.set_xlabel(words)
         title = short(panel.name) if panel.bars else f"{short(panel.name)}: {panel.none}"
         set_title(ax, title, panels=len(panels))
-        if len(results) > 1 and panel.bars and not any(other.get_legend() for other in figure.axes):
-            ax.legend(loc="lower right")
+    seen = [any(bar.effects[i] for panel in panels for bar in panel.bars) for i in range(len(results))]
+    handles = [Patch(color=c, label=r) for r, c, some in zip(results, _COLORS, seen, strict=False) if some]
+    legend_below(figure, handles if len(results) > 1 else [])
     return figure
 
 
-def _draw(ax: Axes, panel: Panel, results: Sequence[str]) -> None:
-    place, height = np.arange(len(panel.bars)), 0.8 / len(results)
-    for i, (result, color) in enumerate(zip(results, _COLORS, strict=False)):
-        at = place + height * (i - 0.5 * (len(results) - 1))
-        values = [bar.effects[i] for bar in panel.bars]
-        ax.barh(at, values, height=height, color=color, label=result if any(values) else "_none")
+def _draw(ax: Axes, panel: Panel, results: int) -> None:
+    place, height = np.arange(len(panel.bars)), 0.8 / results
+    for i, color in enumerate(_COLORS[:results]):
+        at = place + height * (i - 0.5 * (results - 1))
+        ax.barh(at, [bar.effects[i] for bar in panel.bars], height=height, color=color)
     ax.axvline(0, color="0.2", lw=0.8)
     ax.set_yticks(place, [_label(bar) for bar in panel.bars])
     ax.set_ylim(max(len(panel.bars), 1) - 0.5, -0.5)
