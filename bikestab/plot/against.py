@@ -17,16 +17,14 @@ from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.modes import BAND, DASHES, STYLES
 from bikestab.plot.settings import own_settings
 
-_WORDS = {"lam": "tilt λ", "sigma": "σ", "delta": "damping δ", "head_angle": "head angle"}
+_WORDS = {"lam": "tilt λ", "sigma": "σ", "delta": "damping δ"}
 
 
 @own_settings()
 def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     """A machine by name, at a speed [m/s]; ``unit`` is that of the parameter. Head angles are in degrees."""
     scale = 1.0
-    words = {"lam": "tilt λ", "sigma": "σ", "delta": "damping δ"}.get(
-        found.name, found.name.replace("_", " ")
-    )
+    words = _WORDS.get(found.name, found.name.replace("_", " "))
     if found.name == "head_angle":
         scale, unit = math.degrees(1), "°"
     figure = Figure(figsize=(5.6, 4.4), layout="constrained")
