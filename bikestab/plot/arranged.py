@@ -25,7 +25,6 @@ _BAR, _TO_BAR = 0.18, 0.25  # width of a colour bar; from what is left of it
 _TITLE = 6 / 72  # between a title and what is below it
 _LABEL = 0.06  # of axes in three dimensions, whose labels reach below
 _EMPTY = 0.38  # of axes in three dimensions, above the box
-_RIGHT = 3 * _EM  # the numbers of a second axis at the right, which has none before it is drawn
 
 
 def title_place(ax: Axes) -> dict[str, Any]:
@@ -47,8 +46,11 @@ def arrange_plane(figure: Figure, ax: Axes, bar: Axes | None, rows: int, above: 
         x1 -= _BESIDE + _numbers(bar.yaxis) + _BAR
         bar.set_aspect("auto")
         bar.set_position((x1 / width, y0 / height, _BAR / width, (y1 - y0) / height))
-    second = any(child.get_ylabel() for child in ax.child_axes)
-    x1 -= (_TO_BAR if bar or not second else 0.0) + (_BESIDE + _RIGHT if second else 0.0)
+    second = [child for child in ax.child_axes if child.get_ylabel()]
+    for child in second:
+        child.apply_aspect()  # which gives a second axis its limits
+        x1 -= _BESIDE + _numbers(child.yaxis)
+    x1 -= _TO_BAR if bar or not second else 0.0
     ax.set_position((x0 / width, y0 / height, (x1 - x0) / width, (y1 - y0) / height))
     ax.title.set_x((width / 2 - x0) / (x1 - x0))  # in the middle of the picture, where long ones fit
 

@@ -15,6 +15,7 @@ COMMANDS = [
     f"eigen {PAPER} --locus",
     "eigen --bicycle meijaard2007 --locus",
     "eigen --bicycle sharp1971 --locus --V 0:60:2",
+    "eigen --bicycle kooijman2011 --locus",
     "eigen --bicycle meijaard2007 --delta 1 --locus --V 3:8:2",
     f"eigen {ALL}",
     "eigen --bicycle meijaard2007 --set mB=60,75,90,110",
@@ -31,12 +32,18 @@ COMMANDS = [
     "vrange --bicycle meijaard2007 --over mB=60:110:11 --over offset=0:60mm:4",
     "design",
     "design --bicycle sharp1971",
+    "design --stable 4:6 --V 4:6",
+    "design --lam 0.1:0.1001 --sigma 0.08:0.0801",
     "design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5",
     "design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm",
     f"design {ALL}",
     "design --bicycle meijaard2007 --free trail=2cm:15cm --free mB=60:110 --stable 5:5.4",
-    "sensitivity --bicycle meijaard2007 --bicycle sharp1971",
+    f"sensitivity {PAPER}",
+    "sensitivity --bicycle kooijman2011 --bicycle meijaard2007 --bicycle sharp1971",
     "compare meijaard2007 kooijman2011",
+    "compare meijaard2007 meijaard2007",
+    "compare meijaard2007 heavier.yaml",
+    "compare meijaard2007 longer.yaml",
     f"bicycles dikarev1981 {PAPER}",
     "bicycles meijaard2007",
     "bicycles sharp1971",
@@ -59,8 +66,24 @@ def coarse(monkeypatch):
     monkeypatch.setattr(search, "ROUNDS_TOGETHER", 6)
 
 
+@pytest.fixture(autouse=True)
+def nearly(bikestab, tmp_path):
+    """Files of machines that differ little from meijaard2007: in a mass alone, and in the trail."""
+    _, text, _ = bikestab("bicycles", "meijaard2007")
+    for name, old, new in (("heavier", "mB: 85 ", "mB: 86 "), ("longer", "c: 0.08 ", "c: 0.081 ")):
+        assert old in text
+        (tmp_path / f"{name}.yaml").write_text(text.replace(old, new))
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_words_stand_apart(bikestab, figures, command):
     code, _, err = bikestab(*command.split(), "-o", "a.png")
     assert code == 0, err
     assert faults(figures[0]) == []
+
+
+def test_designs_in_one_place_have_one_mark(bikestab, figures):
+    assert bikestab("compare", "meijaard2007", "meijaard2007", "-o", "a.png")[0] == 0
+    _, plane = figures[0].axes  # without a colour bar: there is no difference
+    assert [text.get_text() for text in plane.texts] == ["A, B"]
+    assert len(plane.lines) == 1
