@@ -25,6 +25,8 @@ _SAMPLES = 1201
 _MARKS = 11  # speeds that are written, at most
 _DOTS = 5.0  # points between dots of one curve, at least
 _ARROWS = 90.0  # points along a curve between its arrowheads, and twice as much as before the first
+_HEAD = 5.2  # of an arrowhead, which is as wide as it is long
+_AROUND = (2.0, 0.0)  # points free around it, if they are
 _SHORT = 24.0  # of a curve without one
 _ABOVE = [(0, 1), (0, -1), (0.6, 1), (-0.6, 1), (0.6, -1), (-0.6, -1), (1, 1), (-1, 1)]  # of real ones
 _SIDES = [(1, 1), (1, 0), (1, -1), (0, 1), (0, -1), (-1, 1), (-1, 0), (-1, -1)]
@@ -72,12 +74,12 @@ def draw_locus(
         ax.plot(s_part.real, s_part.imag, color=color, lw=width, solid_capstyle="butt")
         room.curve(s_part.real, s_part.imag)
     dots = _dots(ax, room, parts, start, stop)
-    for _, s_part, _ in parts:
-        _arrowheads(ax, room, s_part)
     style: dict[str, Any] = {"size": 8, "path_effects": HALO, "zorder": 5}
     for V_dot, s_dot in dots:
         sides = _SIDES if s_dot.imag else _ABOVE
         beside(room, ax, f"{V_dot:g}", s_dot.real, s_dot.imag, sides=sides, **style)
+    for _, s_part, _ in parts:
+        _arrowheads(ax, room, s_part)
     return figure
 
 
@@ -117,26 +119,33 @@ def _dots(
 
 
 def _arrowheads(ax: Axes, room: Room, s: Any) -> None:
-    """Arrowheads along a curve, the way it goes as the speed grows."""
+    """Arrowheads along a curve, the way it goes as the speed grows, where they cover no dot and no number."""
     places = room.at(s.real, s.imag)
     inside = np.all((places > 4) & (places < room.size - 4), axis=1)
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T) * (inside[1:]))])
     if length[-1] < _SHORT:
         return
     number = max(round(length[-1] / _ARROWS), 1)
-    for at in (np.arange(number) + 0.5) * length[-1] / number:
-        k = int(np.searchsorted(length, at))
-        before, here = places[max(np.searchsorted(length, at - 4) - 1, 0)], places[k]
-        style = {
-            "arrowstyle": "-|>",
-            "color": "0.2",
-            "lw": 0,
-            "shrinkA": 0,
-            "shrinkB": 0,
-            "mutation_scale": 13,
-        }
-        tail, head = (place / room.size for place in (before, here))
-        ax.annotate(
-            "", tuple(head), tuple(tail), "axes fraction", "axes fraction", arrowprops=style, zorder=4
-        )
-        room.box(here, np.array([4.0, 4.0]))
+    apart = length[-1] / number
+    for at in (np.arange(number) + 0.5) * apart:
+        ways = at + np.arange(-0.45 * apart, 0.45 * apart)
+        ways = ways[np.argsort(np.abs(ways - at))]  # the nearest first
+        tips, tails = (_along(places, length, way) for way in (ways, ways - _HEAD))
+        for around in _AROUND:
+            half = np.full(2, 0.5 * _HEAD + around)
+            free = np.flatnonzero(room.open((tips + tails) / 2, half))
+            if len(free):
+                _arrowhead(ax, tails[free[0]] / room.size, tips[free[0]] / room.size)
+                room.box((tips[free[0]] + tails[free[0]]) / 2, half)
+                break
+
+
+def _along(places: Floats, length: Floats, ways: Floats) -> Floats:
+    """Places on a curve after some ways along it [points]."""
+    return np.column_stack([np.interp(ways, length, part) for part in places.T])
+
+
+def _arrowhead(ax: Axes, tail: Floats, tip: Floats) -> None:
+    """An arrowhead between two shares of the axes."""
+    style = {"arrowstyle": "-|>", "color": "0.2", "lw": 0, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 13}
+    ax.annotate("", tuple(tip), tuple(tail), "axes fraction", "axes fraction", arrowprops=style, zorder=4)

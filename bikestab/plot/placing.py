@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from bikestab.model import Floats
 from bikestab.plot.headings import text_width
@@ -82,10 +83,14 @@ class Room:
             if len(points):
                 far = np.abs(places[:, np.newaxis] - points) / (half + apart)
                 away = np.minimum(away, far.max(axis=2).min(axis=1))
+        return np.where(self.open(places, half), away, 0.0)
+
+    def open(self, places: Floats, half: Floats) -> NDArray[np.bool_]:
+        """Whether boxes around places (n, 2) are in the axes and cover no box; curves they may cover."""
         inside = ((places - half >= 1) & (places + half <= self.size - 1)).all(axis=1)
         for box in self._boxes:
             inside &= (np.abs(places - box[:2]) > half + box[2:]).any(axis=1)
-        return np.where(inside, away, 0.0)
+        return np.asarray(inside)
 
 
 def half_size(text: str, size: float) -> Floats:

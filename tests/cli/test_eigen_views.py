@@ -128,6 +128,23 @@ def test_locus(bikestab):
     assert {"0", "5", "10"} <= {text.get_text() for text in ax.texts}
 
 
+@pytest.mark.parametrize("name", ["meijaard2007", "sharp1971", "kooijman2011"])
+def test_arrowheads_cover_no_dot_and_no_number(name):
+    bike = bs.Bicycle.preset(name)
+    figure = draw_locus(bike, bike.lam, bike.sigma, 0, 10)
+    figure.draw_without_rendering()
+    (ax,) = figure.axes
+    to_points = 72 / figure.dpi
+    dots = [ax.transData.transform(x.get_xydata()[0]) * to_points for x in ax.lines if x.get_marker() == "."]
+    heads = [text for text in ax.texts if not text.get_text()]
+    boxes = [text.get_window_extent() for text in ax.texts if text.get_text()]
+    assert len(heads) > 4
+    for head in heads:
+        middle = ax.transAxes.transform((np.array(head.xy) + head.xyann) / 2)
+        assert np.hypot(*(np.array(dots) - middle * to_points).T).min() > 3.5
+        assert not any(box.contains(*middle) for box in boxes)
+
+
 @pytest.mark.parametrize(
     ("args", "words"),
     [
