@@ -23,11 +23,14 @@ from bikestab.plot.lines import legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.speeds import KINDS, intervals_of
 
-# Okabe and Ito (2008), as in pictures of the region and on the page
+# Okabe and Ito (2008), as in pictures of the region and, but for castering, on the page
 STYLES: dict[str, tuple[str, float]] = {
     "weave": ("#0072b2", 2.0),
     "capsize": ("#e69f00", 2.0),
-    "castering": ("#00432f", 2.6),  # as green as on the page, and darker than weave in greyscale
+    "castering": (
+        "#00432f",
+        2.6,
+    ),  # darker than weave in greyscale, too dark for a dark page
     "real pair": ("#56b4e9", 2.0),
     "real": ("#7b5ea7", 2.0),
     "weave 2": ("#6a8caf", 1.4),

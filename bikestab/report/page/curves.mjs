@@ -9,7 +9,7 @@ import { plotly } from "./library.mjs";
 /** @typedef {import("./volumes.mjs").Shown} Shown */
 /** @typedef {import("./charts.mjs").Chosen} Chosen */
 
-// Okabe and Ito 2008, as in the pictures of eigen
+// Okabe and Ito 2008, as in the pictures of eigen, whose castering is so dark that it could not be seen on a dark page
 const COLOURS = /** @type {Record<string, string>} */ ({
   weave: "#0072b2", capsize: "#e69f00", castering: "#009e73", "real pair": "#56b4e9", real: "#7b5ea7",
   "pair 2": "#cc79a7", "weave 2": "#6a8caf", "capsize 2": "#d55e00",
