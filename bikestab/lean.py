@@ -39,21 +39,21 @@ def lean_numpy() -> Iterator[None]:
                 delattr(np, name)
 
 
-def alone(room: str, module: str, public: str = "") -> ModuleType:
-    """A module of a room of scipy without the rest of it, or the public one where it cannot be had alone.
+def alone(room: str, module: str, name: str, public: str = "") -> Any:
+    """What a module of a room of scipy has by a name, without the rest; or what the public one has.
 
     What is imported for it is forgotten, so that whoever imports the room later gets all of it.
 
-    >>> edt = alone("scipy.ndimage", "_morphology").distance_transform_edt
+    >>> edt = alone("scipy.ndimage", "_morphology", "distance_transform_edt")
     """
     if room not in sys.modules and (spec := find_spec(room)):
         sys.modules[room] = module_from_spec(spec)  # as yet empty, and nothing in it is run
         try:
             with lean_numpy():
-                return import_module(f"{room}.{module}")
+                return getattr(import_module(f"{room}.{module}"), name)
         except (ImportError, AttributeError):  # in another scipy it may be elsewhere
             pass
         finally:
-            for name in [name for name in sys.modules if name == room or name.startswith(f"{room}.")]:
-                del sys.modules[name]
-    return import_module(f"{room}.{public}" if public else room)
+            for each in [each for each in sys.modules if each == room or each.startswith(f"{room}.")]:
+                del sys.modules[each]
+    return getattr(import_module(f"{room}.{public}" if public else room), name)

@@ -33,7 +33,7 @@ def largest_ball(bicycle: Bicycle, n: int) -> Ball:
     ends = intervals_of(characteristic_table(bicycle, x[:, np.newaxis], y))
     V1, V2 = (speeds[:, :, np.newaxis, :] for speeds in (ends.V1, ends.V2))
     stable = ((z[:, np.newaxis] > V1) & (z[:, np.newaxis] < V2)).any(axis=-1)
-    distances = alone("scipy.ndimage", "_morphology").distance_transform_edt
+    distances = alone("scipy.ndimage", "_morphology", "distance_transform_edt")
     away = distances(np.pad(stable, 1), sampling=1 / (n - 1))[1:-1, 1:-1, 1:-1]
     i, j, k = np.unravel_index(np.argmax(away), away.shape)
     return Ball(float(x[i]), float(y[j]), float(z[k]), float(away[i, j, k]), n)

@@ -10,5 +10,5 @@ from bikestab.lean import alone
 
 def find_root() -> Callable[..., Any]:
     """``scipy.optimize.elementwise.find_root``."""
-    find: Callable[..., Any] = alone("scipy.optimize", "_elementwise", "elementwise").find_root
+    find: Callable[..., Any] = alone("scipy.optimize", "_elementwise", "find_root", "elementwise")
     return find

@@ -25,6 +25,27 @@ find = find_root()
 from scipy.optimize import elementwise
 print(find is elementwise.find_root)
 """
+EMPTY = """
+import sys
+from importlib.machinery import ModuleSpec
+class Empty:
+    def find_spec(self, name, path=None, target=None):
+        if name in ("scipy.optimize._elementwise", "scipy.ndimage._morphology") and name not in met:
+            met.append(name)
+            return ModuleSpec(name, self)
+    def create_module(self, spec):
+        pass
+    def exec_module(self, module):
+        pass
+met = []
+sys.meta_path.insert(0, Empty())
+from bikestab.lean import alone
+from bikestab.scan.rootfinder import find_root
+find, edt = find_root(), alone("scipy.ndimage", "_morphology", "distance_transform_edt")
+from scipy.ndimage import distance_transform_edt
+from scipy.optimize import elementwise
+print(len(met), find is elementwise.find_root, edt is distance_transform_edt)
+"""
 
 
 def output(program):
@@ -38,6 +59,10 @@ def test_alone():
 
 def test_where_it_is_elsewhere():
     assert output(MOVED) == (["True"], "")
+
+
+def test_where_its_module_has_it_no_more():
+    assert output(EMPTY) == (["2 True True"], "")
 
 
 LEAN = """
