@@ -71,8 +71,10 @@ def _with_fewer(line: str, most: int) -> str:
     if found is None or len(line) <= most:
         return line
     words = found[0].split(", ")
+    length = len(line)
     for kept in range(len(words) - 1, _KEPT - 1, -1):
-        rest = f"{', '.join(words[:kept])} and {len(words) - kept} more"
-        if len(line) - len(found[0]) + len(rest) <= most:
-            return line[: found.start()] + rest + line[found.end() :]
+        length -= len(words[kept]) + len(", ")
+        more = f" and {len(words) - kept} more"
+        if length + len(more) <= most:
+            return line[: found.start()] + ", ".join(words[:kept]) + more + line[found.end() :]
     return line
