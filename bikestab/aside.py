@@ -16,6 +16,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
+from pathlib import Path
 from typing import Generic, TypeVar
 
 T = TypeVar("T")
@@ -29,16 +30,32 @@ def cores() -> int:
     return os.cpu_count() or 1
 
 
+def copyable() -> bool:
+    """Whether this process has no other thread, whose locks a copy of it would hold for ever.
+
+    Threads of libraries count too, which Python does not know of: those of OpenBLAS, of pyarrow.
+    """
+    if not sys.platform.startswith("linux"):
+        return False
+    try:
+        return len([*Path("/proc/self/task").iterdir()]) == 1
+    except OSError:
+        return threading.active_count() == 1
+
+
 @contextmanager
 def meanwhile(task: Callable[[], T]) -> Iterator[Callable[[], T]]:
     """Begin a task; the function that is given waits for what it returns, and raises what it raises.
 
     Where the block ends without that, nobody wants it any more. What the task returns goes through a pipe.
     """
-    if not sys.platform.startswith("linux") or cores() < 2 or threading.active_count() > 1:
+    second = None
+    if cores() > 1 and copyable():
+        with suppress(OSError):  # the most processes or files that there may be are there already
+            second = _Second(task)
+    if second is None:
         yield task
         return
-    second = _Second(task)
     try:
         yield second.result
     finally:
@@ -48,10 +65,12 @@ def meanwhile(task: Callable[[], T]) -> Iterator[Callable[[], T]]:
 @contextmanager
 def turns(count: int) -> Iterator[Iterator[int]]:
     """The numbers 0 … count − 1, of which this process and one begun within the block get each only once."""
-    if not hasattr(os, "memfd_create"):  # where there is no second process
-        yield iter(range(count))
+    try:
+        file = os.memfd_create("turns")
+    except (AttributeError, OSError):  # then a second process gets none
+        first = os.getpid()
+        yield (number for number in range(count) if os.getpid() == first)
         return
-    file = os.memfd_create("turns")
     try:
         os.write(file, b"".join(number.to_bytes(4, "little") for number in range(count)))
         os.lseek(file, 0, os.SEEK_SET)  # which is where both read on
@@ -67,7 +86,12 @@ class _Second(Generic[T]):
         self.task = task
         self.pipe, theirs = os.pipe()
         first = os.getpid()
-        self.child = os.fork()
+        try:
+            self.child = os.fork()
+        except OSError:
+            os.close(self.pipe)
+            os.close(theirs)
+            raise
         if not self.child:
             os.close(self.pipe)  # where the first process is killed, nobody reads, and writing ends
             _answer(task, theirs, first)

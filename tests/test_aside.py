@@ -101,6 +101,46 @@ def test_beside_another_thread_it_is_done_here():
     assert out == ["True"]
 
 
+@linux
+def test_beside_a_thread_that_python_does_not_know_of():
+    out, err = run("""
+        import ctypes
+        body = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p)(lambda _: time.sleep(0.5) or 0)
+        thread = ctypes.c_ulong()
+        ctypes.CDLL(None).pthread_create(ctypes.byref(thread), None, body, None)
+        with meanwhile(os.getpid) as result:
+            print(result() == here)
+        """)
+    assert (out, err) == (["True"], "")
+
+
+@linux
+def test_where_no_process_can_be_made_it_is_done_here():
+    out, err = run("""
+        def refused():
+            raise BlockingIOError
+        before = os.listdir("/proc/self/fd")
+        os.fork = refused
+        with meanwhile(os.getpid) as result:
+            print(result() == here)
+        print(os.listdir("/proc/self/fd") == before)
+        """)
+    assert (out, err) == (["True", "True"], "")
+
+
+@linux
+@pytest.mark.parametrize("change", ["os.memfd_create = refused", "del os.memfd_create"])
+def test_turns_without_a_file_in_memory_are_all_had_here(change):
+    out, err = run(f"""
+        def refused(name):
+            raise OSError
+        {change}
+        with aside.turns(5) as numbers, meanwhile(lambda: list(numbers)) as others:
+            print(others(), list(numbers))
+        """)
+    assert (" ".join(out), err) == ("[] [0, 1, 2, 3, 4]", "")
+
+
 def test_cores():
     from bikestab.aside import cores
 

@@ -14,20 +14,20 @@ import threading
 import traceback
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
+from pathlib import Path
 from queue import SimpleQueue
 from types import ModuleType
 from typing import Any, cast
 
+from bikestab.aside import copyable, end_with
 from bikestab.aside import cores as cores
-from bikestab.aside import end_with
 from bikestab.errors import InputError, WorkersLost
 from bikestab.scan.tile import Finished, Tile, compute
 
-_FILES = 1024  # a process has open, at most
 Numbered = tuple[int, Tile]
 
 
@@ -101,18 +101,19 @@ def _worker(work: Callable[[Any], Any]) -> Iterator[Connection]:
 def _context() -> tuple[Any, bool]:
     """How processes are made, and whether as copies of this one, which are there at once.
 
-    Beside other threads, whose locks a copy would hold for ever, each is a new program.
+    Beside other threads each is a new program.
     """
-    copied = sys.platform.startswith("linux") and threading.active_count() == 1
+    copied = copyable()
     return multiprocessing.get_context("fork" if copied else "spawn"), copied
 
 
 def _copy(parent: Connection, work: Callable[[Any], Any], first: int) -> None:
     """``_serve`` in a copy of the ``first`` process, without its files: some of them are locked."""
     end_with(first)
-    keep = parent.fileno()
-    os.closerange(3, keep)
-    os.closerange(keep + 1, _FILES)
+    for file in [int(entry.name) for entry in Path("/proc/self/fd").iterdir()]:
+        if file > 2 and file != parent.fileno():
+            with suppress(OSError):  # the folder itself is closed already
+                os.close(file)
     _serve(parent, work)
 
 
