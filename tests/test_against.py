@@ -2,12 +2,16 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import linear_sum_assignment
 
 from bikestab.against import modes_against, stable_ranges
 from bikestab.bicycle import Bicycle
 from bikestab.model import exact_table
 from bikestab.speeds import intervals_of
 from bikestab.variants import varied
+from tests.strategies import meijaard_machines
 
 CASES = [
     ("meijaard2007", "mB", (40.0, 140.0), 5.0),
@@ -88,3 +92,63 @@ def test_curves_lead_through_the_modes_and_on_to_where_they_meet():
             if s.imag >= 0:
                 near = [c.name for c in found.curves if np.abs(c.s - s).min() < 1e-9 * abs(s)]
                 assert name in near, (x, name)
+
+
+@pytest.mark.parametrize(
+    ("preset", "name", "values", "V"),
+    [
+        ("sharp1971", "delta", [0, 15, 30], 0.5),
+        ("sharp1971", "lam", [-0.3, 0.9], 0.5),
+        ("meijaard2007", "lam", np.linspace(-0.3, 0.9, 5), 0.5),
+    ],
+)
+def test_curves_are_of_all_eigenvalues_everywhere(preset, name, values, V):
+    """Also where eigenvalues meet on both sides, so that their number of pairs is that of no value."""
+    assert_all_there(Bicycle.preset(preset), name, values, V)
+
+
+@settings(max_examples=8, deadline=None)
+@given(meijaard_machines(), st.sampled_from(["delta", "lam", "sigma"]), st.floats(0.1, 10))
+def test_curves_of_random_machines(machine, name, V):
+    ends = {"delta": (0, 20), "lam": (0.0, 0.8), "sigma": (0, 0.2)}
+    assert_all_there(Bicycle.from_mapping(machine), name, ends[name], V)
+
+
+def assert_all_there(bicycle, name, values, V):
+    curves = modes_against(bicycle, name, list(map(float, values)), V).curves
+    for x in np.linspace(values[0], values[-1], 43)[:-1]:
+        machine, lam, sigma = varied(bicycle, {name: np.array([x])})
+        lam, sigma, _ = np.broadcast_arrays(lam, sigma, np.array([x]))
+        (roots,) = _roots(machine, lam, sigma, V)
+        here = [curve for curve in curves if curve.x[0] <= x < curve.x[-1]]
+        found = [_at(curve, x) for curve in here]
+        found += [np.conj(s) for s, curve in zip(found, here, strict=True) if curve.s.imag.max() > 0]
+        assert len(found) == 4, (x, [curve.name for curve in here])
+        away = abs(np.subtract.outer(roots, found))
+        assert away[linear_sum_assignment(away)].max() < 0.02 * abs(roots).max(), (x, roots, found)
+
+
+def _at(curve, x):
+    """Linear between the points of a curve."""
+    return np.interp(x, curve.x, curve.s.real) + 1j * np.interp(x, curve.x, curve.s.imag)
+
+
+def test_a_curve_goes_on_where_another_passes_it_in_size():
+    """From λ = 0.101 to 0.135 there are two pairs, and the slower one becomes the faster one."""
+    curves = modes_against(Bicycle.preset("meijaard2007"), "lam", [-0.3, 0.9], 0.5).curves
+    two = [curve for curve in curves if curve.x[0] < 0.11 < curve.x[-1]]
+    assert [curve.s.imag[16] > 0 for curve in two] == [True, True]
+    fast = two[0].s.imag > two[1].s.imag
+    assert fast.any()
+    assert not fast.all()
+    for curve in two:
+        assert abs(np.diff(curve.s)).max() < 0.1 < abs(two[0].s - two[1].s).min()
+
+
+def test_an_eigenvalue_becomes_infinite():
+    """Where the mass matrix is singular, at λ = −0.0997, all others are on both sides as they are."""
+    curves = modes_against(Bicycle.preset("kooijman2011"), "lam", [-0.3, 0.9], 0.0).curves
+    gap = min((curve.x[0] for curve in curves if curve.x[0] > -0.3), key=lambda x: abs(x + 0.0997))
+    for x in (gap - 1e-3, gap + 1e-3):
+        assert sum(c.x[0] <= x <= c.x[-1] for c in curves) == (4 if x < gap else 3)
+    assert max(abs(curve.s).max() for curve in curves) < 1e6
