@@ -45,7 +45,7 @@ def tile(shape: tuple[int, ...], delta: float, fields: tuple[str, ...]) -> Tile:
 def masks(t: Tile) -> NDArray[np.uint8]:
     """``violated`` (cell, V) of a tile and, to be timed as well, ``stable``."""
     table = characteristic_table(t.family.bicycle, t.x[:, np.newaxis], t.y).reshape(5, 4, -1)
-    mask = violated_between(table, critical(table, rough=True), t.V)
+    mask = violated_between(table, critical(table, rough=True), t.V, rough=True)
     field_values("stable", table, t, mask)
     return mask
 

@@ -55,7 +55,7 @@ def critical(table: Floats | ExactTable, names: Sequence[str] = CONDITIONS, roug
 
     Without damping all are square roots of the zeros of linear and quadratic polynomials in V²; with
     damping those of p1 and hurwitz3 are isolated first. A cell's result does not depend on other cells.
-    Without damping ``rough`` speeds are as double precision gives them.
+    Without damping ``rough`` speeds are as double precision gives them, where it is sure of their number.
     """
     shape = table.shape[2:]
     cells = cells_of(table)
@@ -106,7 +106,8 @@ def _even(entries: Entries, name: str, rough: bool = False) -> Found:
     if name == "hurwitz3":
         w = _hurwitz3_even(entries.doubles())
         if rough:
-            return _found(rough_zeros_of_quadratic(w), w)
+            found = _found(rough_zeros_of_quadratic(w), w)
+            return _again(found, entries, partial(_even, name=name))
         found = _found(zeros_of_quadratic(entries, _EVEN_HURWITZ3, w), w)
         return _again(found, entries, _fine_even, _left_even, _fine_even)
     numbers = entries.numbers

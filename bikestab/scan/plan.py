@@ -146,14 +146,16 @@ class Plan:
             values[i : i + n] for values, i, n in zip(self._axes, place[-3:], self.tile[-3:], strict=True)
         )
         lowest = place[-1] == 0
+        last = place[-1] + len(V)
         above = 0.0 if lowest else float(self._axes[2][place[-1] - 1])
+        beyond = float(self._axes[2][last]) if last < len(self._axes[2]) else np.inf
         members = self.members_of(number)
         family, swept = config.family(members[0]), {}
         if len(members) > 1:
             family, values = config.family(None), [config.members[member].values for member in members]
             swept = {name: np.array([[each[name]] for each in values]) for name in values[0]}
         return Tile(
-            family, x, y, V, self.fields, self.chunk, lowest, above, config.ensemble,
+            family, x, y, V, self.fields, self.chunk, lowest, above, beyond, config.ensemble,
             block=self._block_at(place[:-3]), whole=self.whole,
             gradients=GRADIENTS in config.fields, swept=swept, fast=config.compiled,
         )  # fmt: skip

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bikestab.critical import Critical
-from bikestab.model import Floats
+from bikestab.critical import Critical, critical
+from bikestab.model import ExactTable, Floats
 from bikestab.rounding import NO_SIGN
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scan.agreement import size_of_terms
@@ -22,37 +22,59 @@ _FROM = np.triu(np.ones((8, 8), np.uint8)).view(np.uint64).ravel()  # ones from 
 NEAR = 1e-9  # relative; that close to a root rounding might decide, and the conditions are evaluated
 
 
-def violated_between(table: Floats, critical: Critical, V: Floats) -> NDArray[np.uint8]:
+def violated_between(
+    table: Floats | ExactTable,
+    exact: Critical,
+    V: Floats,
+    outside: tuple[float, float] = (-np.inf, np.inf),
+    rough: bool = False,
+) -> NDArray[np.uint8]:
     """The bit mask of ``routh.violated`` for a table (5, 4, cell) at the speeds V [m/s]; (cell, V).
 
-    V ascends and is not negative. At rest, and at the speed next to a root if it is within NEAR or the
-    root's radius of it, the conditions themselves decide; so they do in cells that may have other roots,
-    where they are more than rounding.
+    V ascends and is not negative, and is part of a grid with the speeds ``outside`` before and behind it. At
+    rest, and at the grid's speed next to a root if it is within NEAR or the root's radius of it, the
+    conditions themselves decide; so they do in cells that may have other roots, where they are more than
+    rounding. Where they might if the roots were better than ``rough``, better ones are found.
     """
-    n = table.shape[-1]
-    first = np.zeros(n, np.uint8)  # the mask just above V = 0
-    steps, close = [], []
+    plain = table.value if isinstance(table, ExactTable) else table
+    first = np.zeros(plain.shape[-1], np.uint8)  # the mask just above V = 0
+    steps, close, few = [], [], np.zeros(len(first), bool)
     ends = np.concatenate([[-np.inf], V, [np.inf]])
     for k, name in enumerate(CONDITIONS):
         bit = np.uint8(1 << k)
-        first |= np.where(critical.sign[name] > 0, np.uint8(0), bit)
-        zeros = critical.zeros[name]
+        first |= np.where(exact.sign[name] > 0, np.uint8(0), bit)
+        zeros = exact.zeros[name]
         for root, radius in zip(zeros.V, zeros.radius, strict=True):
             place, below, above = _placed(root, V, ends)
             steps.append(place << len(CONDITIONS) | bit)
-            cell = np.flatnonzero(np.minimum(below, above) <= np.fmax(NEAR * root, radius))
-            if len(cell):
-                close.append((cell, place[cell] - (below[cell] < above[cell])))
+            cell = np.flatnonzero(np.minimum(below, above) <= (1 + rough) * np.fmax(NEAR * root, radius))
+            few[cell] = rough
+            if len(cell) and not rough:
+                close.append(_nearest(cell, place[cell], root[cell], ends, outside))
     mask = _runs(first, steps, len(V))
     if V[0] == 0:
-        mask[:, 0] = violated(conditions(table, 0.0))
+        mask[:, 0] = violated(conditions(plain, 0.0))
     if close:
         cell, place = np.concatenate(close, axis=1)
-        mask[cell, place] = violated(conditions(table[..., cell], V[place]))
-    cell = np.flatnonzero(undecided(critical))
+        mask[cell, place] = violated(conditions(plain[..., cell], V[place]))
+    if few.any():
+        some = ExactTable(*(each[..., few] for each in table)) if plain is not table else plain[..., few]
+        mask[few] = violated_between(some, critical(some), V, outside)
+    cell = np.flatnonzero(undecided(exact))
     for part in np.array_split(cell, 1 + len(cell) * len(V) // _PART) if len(cell) else ():
-        mask[part] = _with_clear_signs(mask[part], table[:, :, part, np.newaxis], V)
+        mask[part] = _with_clear_signs(mask[part], plain[:, :, part, np.newaxis], V)
     return mask
+
+
+def _nearest(
+    cell: Indices, place: Indices, root: Floats, ends: Floats, outside: tuple[float, float]
+) -> tuple[Indices, Indices]:
+    """The cells whose root is next to one of V, and to which: to the nearer one, of its grid's speeds too."""
+    below, above = ends[place], ends[place + 1]
+    below[place == 0], above[place == len(ends) - 2] = outside
+    place = place - (root - below < above - root)
+    inside = (place >= 0) & (place < len(ends) - 2)
+    return cell[inside], place[inside]
 
 
 def _with_clear_signs(mask: NDArray[np.uint8], table: Floats, V: Floats) -> NDArray[np.uint8]:
@@ -65,9 +87,9 @@ def _with_clear_signs(mask: NDArray[np.uint8], table: Floats, V: Floats) -> NDAr
     return mask
 
 
-def undecided(critical: Critical) -> NDArray[np.bool_]:
+def undecided(exact: Critical) -> NDArray[np.bool_]:
     """Which cells may have other roots than those that are known, as rounding leaves them."""
-    return ~np.logical_and.reduce([zeros.sure for zeros in critical.zeros.values()])
+    return ~np.logical_and.reduce([zeros.sure for zeros in exact.zeros.values()])
 
 
 def _placed(root: Floats, V: Floats, ends: Floats) -> tuple[Indices, Floats, Floats]:

@@ -43,10 +43,9 @@ class Tile:
     """A part of the grid: x, y and V [m/s] of the families of one machine or many, and what is wanted of it.
 
     ``lowest`` says whether it has the lowest speeds of its (λ, σ): it then also gives what does not depend on
-    V. Else ``above`` [m/s] is the last speed of the tile below. ``block`` has the lengths of a sweep's axes,
-    and ``whole`` says whether these are all cells of the machines. Of many machines ``swept``
-    has a column (machine, 1) of each parameter that the sweep varies.
-    ``fast`` asks for the compiled kernel.
+    V. ``above`` [m/s] is the last speed of the tile below, ``beyond`` the first of the next. ``block`` has a
+    sweep's axes' lengths, and ``whole`` says whether these are all cells of the machines. Of many machines
+    ``swept`` has a column (machine, 1) of each varied parameter. ``fast`` asks for the compiled kernel.
     """
 
     family: Family
@@ -57,6 +56,7 @@ class Tile:
     chunk: tuple[int, ...]
     lowest: bool
     above: float = 0.0
+    beyond: float = np.inf
     ensemble: Ensemble | None = None
     block: tuple[int, ...] = ()
     whole: bool = False
@@ -153,7 +153,7 @@ def compute(tile: Tile) -> Finished:
     keep_heap()
     whole = tile.table()
     table, exact = whole.value, critical(whole, rough=not tile.lowest)
-    mask = violated_between(table, exact, tile.V)
+    mask = violated_between(whole, exact, tile.V, (tile.above, tile.beyond), rough=not tile.lowest)
     agreement = check(table, exact, mask, tile.V, tile.above)
     if agreement.largest > AGREEMENT:
         raise _disagreement(agreement)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from bikestab.bicycle import Bicycle
 from bikestab.critical import critical
-from bikestab.model import characteristic_table
+from bikestab.model import characteristic_table, exact_table
 from bikestab.routh import CONDITIONS, conditions, violated
 from bikestab.scan.signs import ALL, NEAR, _runs, violated_between
 from tests.onecell import table_of
@@ -37,14 +37,14 @@ def both(table, V):
     """The mask by either way, and where a condition that is not zero to rounding has two signs."""
     V = np.asarray(V, float)
     runs, values = violated_between(table, critical(table), V), conditions(table[..., np.newaxis], V)
-    rough = violated_between(table, critical(table, rough=True), V)
+    rough = violated_between(table, critical(table, rough=True), V, rough=True)
+    np.testing.assert_array_equal(rough, runs)
     points = violated(values)
     p0, p1, p2, p3, p4, _ = conditions(np.abs(table)[..., np.newaxis], V)
     sizes = [p0, p1, p2, p3, p4, p1 * (p2 * p3 + p4 * p1) + p0 * p3**2]
     wrong = np.zeros(runs.shape, bool)
     for bit, (value, size) in enumerate(zip(values, sizes, strict=True)):
         wrong |= (((runs ^ points) >> bit) & 1 == 1) & ~(np.abs(value) <= NO_SIGN * size)
-        wrong |= (((rough ^ points) >> bit) & 1 == 1) & ~(np.abs(value) <= NO_SIGN * size)
     assert runs.dtype == np.uint8
     assert runs.shape == (table.shape[-1], len(V))
     return runs, points, wrong
@@ -114,6 +114,69 @@ def test_runs_are_what_their_steps_say(data):
         for row, start in zip(expected, place, strict=True):
             row[start:] ^= bit
     np.testing.assert_array_equal(_runs(first, steps, num), expected)
+
+
+# --- tiles, of which all but the lowest have rough speeds
+
+
+def in_tiles(table, V, size):
+    """The mask as tiles of so many speeds have it."""
+    parts = []
+    for i in range(0, len(V), size):
+        outside = V[i - 1] if i else 0.0, V[i + size] if i + size < len(V) else np.inf
+        exact = critical(table, rough=i > 0)
+        parts.append(violated_between(table, exact, V[i : i + size], outside, rough=i > 0))
+    return np.hstack(parts)
+
+
+def folds(bicycle, lam):
+    """Trails next to those at which two speeds of hurwitz3 meet, at various distances on both sides."""
+
+    def number(sigma):
+        found = critical(exact_table(bicycle, lam, sigma), ["hurwitz3"]).speeds["hurwitz3"]
+        return np.isfinite(found).sum(axis=0)
+
+    sigma = np.linspace(-0.3, 0.5, 400)
+    counts = number(sigma)
+    at = np.flatnonzero(np.abs(np.diff(counts)) == 2)
+    low, high = sigma[at], sigma[at + 1]
+    for _ in range(60):
+        middle = (low + high) / 2
+        same = number(middle) == counts[at]
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    away = 10.0 ** np.arange(-16, -9)
+    away = np.concatenate([-away, [0], away])
+    return np.unique(np.add.outer([*low, *high], away))
+
+
+def assert_tiles_leave_no_trace(table):
+    """Of one cell, at speeds around those where hurwitz3 has its zeros."""
+    fine = critical(table)
+    w = np.ravel(fine.speeds["hurwitz3"])
+    centre = np.mean(w[np.isfinite(w)]) if np.isfinite(w).any() else 5.0
+    for step in (1e-7, 1e-9, 1e-11, 2.0**-52):
+        V = centre * (1 + step * np.arange(-150, 151))
+        np.testing.assert_array_equal(in_tiles(table, V, 80), violated_between(table, fine, V))
+
+
+def test_a_pair_that_double_precision_cannot_tell_is_there_in_every_tile():
+    """Between two zeros of hurwitz3 that are 1.5e-7 of their speed apart it holds, but next to a zero."""
+    table = exact_table(DIKAREV, 0.2, [0.019139067260335877])
+    one, other = np.ravel(critical(table).speeds["hurwitz3"])
+    assert 1e-7 < other / one - 1 < 5e-7
+    V = np.linspace(one * (1 - 1e-7), other * (1 + 1e-7), 50_001)
+    bit = in_tiles(table, V, 8192)[0] >> 5 & 1
+    inside = np.clip(V, one, other) == V
+    assert np.count_nonzero((bit == 1) == inside) <= 2
+    assert_tiles_leave_no_trace(table)
+
+
+@settings(deadline=None, max_examples=4, derandomize=True)
+@given(machine=machines, lam=lams, delta=st.sampled_from([0.0, 0.0, 1.0]))
+def test_tiles_next_to_folds(machine, lam, delta):
+    bicycle = Bicycle.from_mapping(machine).with_delta(delta)
+    for sigma in folds(bicycle, lam)[::19]:
+        assert_tiles_leave_no_trace(exact_table(bicycle, lam, [sigma]))
 
 
 # --- speeds at and around the roots
