@@ -9,7 +9,7 @@ from numpy.polynomial.polynomial import polyfromroots
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import characteristic_table
-from bikestab.roots import _bounds, _exponent_above, positive_roots, sign_near_zero
+from bikestab.roots import _bounds, _exponent_above, bracketed_root, positive_roots, sign_near_zero
 from bikestab.routh import condition_polynomials
 from tests.references.generate_speeds import roots
 
@@ -57,6 +57,7 @@ def exact(coefficients):
         ([1, 1, 3], [3]),  # the polynomial is exactly zero where its slope is found to be
         ([4, 4, 1], [1]),
         ([2, 2, 2], [2]),
+        ([1.8, 1.8, 1.8, -1.8], [1.8]),  # exactly zero at both places where its slope is found to be
         ([1, 1, 3, 3], []),
         ([1, 2, 2, 2, 8], [1, 2, 8]),
     ],
@@ -113,6 +114,14 @@ def test_linear_ones():
         got = positive_roots(np.array(c)[:, :-1])  # without NaN, which is in every power
         np.testing.assert_array_equal(got, [x[:-1]])
     np.testing.assert_array_equal(positive_roots(np.array([c0, c1])), [expected])
+
+
+def test_a_root_of_which_nothing_is_known_but_that_it_is_positive():
+    """(x − 2^k) (x² + 1), between 0 and infinity."""
+    x = 2.0 ** np.array([-30, -3, 0, 2, 30])
+    c = np.array([-x, np.ones(5), -x, np.ones(5)])
+    got = bracketed_root(c, np.zeros(5), np.full(5, np.inf), np.ones(5))
+    np.testing.assert_allclose(got, x, rtol=4 * EPS)
 
 
 @pytest.mark.parametrize("shape", [(), (1,), (3,), (2, 3), (0,), (2, 0)])

@@ -127,13 +127,28 @@ def test_coefficients_in_proportion_to_the_inverse_speed_where_some_cells_have_n
     np.testing.assert_array_equal(coefficients_at(table, 0.0)[1], [2, np.inf, -np.inf])
 
 
+def test_condition_polynomials_with_a_part_of_the_inverse_speed():
+    """V p_k and V³ hurwitz3, whose V^−3 cancels: p1 p2 = p0 p3 of products of whole numbers."""
+    rng = np.random.default_rng(1)
+    a, b, c, d = rng.integers(1 << 25, 1 << 26, (4, 40)).astype(float)
+    table = np.zeros((5, 5, 40))
+    table[:4, 4], table[:, :4] = [a * c, a * b, c * d, b * d], rng.uniform(1, 2, (5, 4, 40)) * 2.0**50
+    found = condition_polynomials(table)
+    assert not found["hurwitz3"][0].any()
+    for V in (0.5, 3.0):
+        for name, value in conditions(table, V)._asdict().items():
+            power = 3 if name == "hurwitz3" else 1
+            expected = np.polynomial.polynomial.polyval(V, found[name])
+            np.testing.assert_allclose(V**power * value, expected, rtol=1e-12)
+
+
 def test_what_rounding_leaves_of_the_first_coefficients_is_no_number():
     """Three of V³ hurwitz3, where there is V^−1; those behind stay as they are."""
-    noise = Twofold(np.array([1e-30, 1.0]), np.array([1e-50, 1e-20]), np.full(2, 4.0))
+    noise = Twofold(np.array([1e-30, 1.0, 1e-30]), np.array([1e-50, 1e-20, 0]), np.array([4.0, 4, 1e-6]))
     found = without_noise([noise, None, noise, noise])
     for settled in (found[0], found[2]):
         np.testing.assert_array_equal(
-            (settled.value, settled.rest, settled.size), [[0, 1], [0, 1e-20], [0, 4]]
+            (settled.value, settled.rest, settled.size), [[0, 1, 1e-30], [0, 1e-20, 0], [0, 4, 1e-6]]
         )
     assert found[1] is None
     assert found[3] is noise

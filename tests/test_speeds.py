@@ -12,7 +12,7 @@ from mpmath import mp, mpf
 from bikestab.bicycle import Bicycle
 from bikestab.critical import critical
 from bikestab.entries import cells_of
-from bikestab.model import characteristic_table, exact_table
+from bikestab.model import ExactTable, characteristic_table, exact_table
 from bikestab.routh import coefficients_at, condition_polynomials
 from bikestab.speeds import (
     CAPSIZE,
@@ -225,6 +225,37 @@ def test_the_signs_of_coefficients_with_a_part_of_the_inverse_speed(k):
     table[:, 0], table[k, 4] = 1.0, -2.0
     stable, certain = _others_positive(cells_of(table), np.array([0, 0]), np.array([4.0, 1.0]))
     assert (stable.tolist(), certain.tolist()) == ([True, k == 2], [True, True])
+
+
+@pytest.mark.parametrize(("k", "j", "known"), [(1, 0, True), (2, 1, True), (3, 2, False), (4, 0, False)])
+def test_signs_are_not_certain_within_the_bounds_of_entries(k, j, known):
+    """p_k = 1 ± 2 at V = 2; of p1 and p2 one that is certain will do."""
+    value, error = np.zeros((2, 5, 4, 1))
+    value[1:, 0], error[1:, 0] = 1.0, 1e-30
+    error[k, j] = 2 / 2.0**j
+    stable, certain = _others_positive(
+        cells_of(ExactTable(value, 0 * value, error)), np.array([0]), np.array([2.0])
+    )
+    assert (stable.tolist(), certain.tolist()) == ([True], [known])
+
+
+@pytest.mark.parametrize(
+    ("rows", "known"),
+    [
+        ({2: [], 4: [1, -1 / 3]}, False),  # p2 zero at all speeds tells nothing of p4
+        ({1: [1, -1 / 3], 2: [1, -1 / 3]}, False),
+        ({3: []}, True),
+        ({4: []}, True),  # not stable, whatever the others are
+    ],
+)
+def test_which_signs_are_certain_where_some_are_zero(rows, known):
+    """At all speeds, or at V = 3 but for rounding."""
+    table = table_of({(k, 0): 1.0 for k in range(1, 5) if k not in rows}, (1,))
+    for k, row in rows.items():
+        table[k, : len(row), 0] = row
+    stable, certain = _others_positive(cells_of(table), np.array([0]), np.array([3.0]))
+    assert certain.tolist() == [known]
+    assert not (known and stable.item())
 
 
 def test_where_one_sign_says_no_the_others_need_not_be_certain():
