@@ -1,4 +1,4 @@
-"""The words of a picture: which cover each other, and which are not all in it."""
+"""The words of a picture: which cover each other, or axes, and which are not all in it."""
 
 from itertools import combinations
 
@@ -12,17 +12,29 @@ ROOM = 0.5  # points by which boxes may overlap, which have some room around the
 def faults(figure):
     """What a reader would stumble over, as words."""
     figure.draw_without_rendering()
-    boxes = [(text.get_text(), box) for text, box in _boxes(figure)]
-    found = []
-    for (one, a), (other, b) in combinations(boxes, 2):
-        wide, high = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
-        if min(wide, high) > ROOM * figure.dpi / 72:
-            found.append(f"{one!r} and {other!r} overlap")
+    texts = list(_boxes(figure))
+    boxes = [(text.get_text(), box) for text, box in texts]
+    room = ROOM * figure.dpi / 72
+    found = [
+        f"{one!r} and {other!r} overlap"
+        for (one, a), (other, b) in combinations(boxes, 2)
+        if _common(a, b) > room
+    ]
+    frames = {tuple(ax.bbox.extents.round(3)) for ax in _axes(figure)}  # a second axis has that of the first
+    for text, box in texts:
+        own = text.axes and tuple(text.axes.bbox.extents.round(3))
+        if any(_common(box, Bbox.from_extents(frame)) > room for frame in frames - {own}):
+            found.append(f"{text.get_text()!r} is where other axes are")
     width, height = figure.get_size_inches() * figure.dpi
     for words, box in boxes:
         if box.x0 < 0 or box.y0 < 0 or box.x1 > width or box.y1 > height:
             found.append(f"{words!r} leaves the picture")
     return found
+
+
+def _common(a, b):
+    """The smaller side of what two boxes have in common; below zero where they are apart."""
+    return min(min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0))
 
 
 def _boxes(figure):
@@ -40,10 +52,7 @@ def _texts(figure):
     yield from figure.texts
     for legend in figure.legends:
         yield from legend.get_texts()
-    axes = list(figure.axes)
-    while axes:
-        ax = axes.pop()
-        axes += ax.child_axes
+    for ax in _axes(figure):
         yield from (ax.title, *ax.texts)
         if legend := ax.get_legend():
             yield from legend.get_texts()
@@ -51,3 +60,11 @@ def _texts(figure):
             yield from (axis.label, axis.offsetText)
             for tick in axis._update_ticks():  # those within the limits
                 yield from (tick.label1, tick.label2)
+
+
+def _axes(figure):
+    axes = list(figure.axes)
+    while axes:
+        ax = axes.pop()
+        axes += ax.child_axes
+        yield ax
