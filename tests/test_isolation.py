@@ -76,10 +76,26 @@ def test_powers_that_no_cell_has_are_left_out_of_the_cuts():
     assert high[0] <= low[1]
 
 
-def test_what_cuts_do_not_end_is_undecided(monkeypatch):
-    near = polynomial(1.0, 1.0 + 2.0**-20)
-    monkeypatch.setattr(bikestab.isolation, "DEPTH", 1)
-    assert not brackets(near, 1, COEFFICIENT)[1].any()
+@pytest.mark.parametrize(
+    "zeros",
+    [
+        ("1.1", "1.1"), ("1.1", "1.1", "3"), ("0.6", "0.6", "0.6"), ("1.1", "1.1 + 1e-30"),
+        ("1.1", "1.1 + 1e-12", "1.1 + 2e-12"),
+    ],
+    ids=["double", "double, and another", "triple", "two as good as one", "three as good as one"],
+)  # fmt: skip
+def test_what_cuts_do_not_end_is_undecided(zeros):
+    """Zeros that pairs of doubles cannot tell from one of that order, which coefficients round."""
+    c = [Fraction(1)]
+    for zero in zeros:
+        x = sum(map(Fraction, zero.split(" + ")))
+        c = [a - x * b for a, b in zip([Fraction(0), *c], [*c, Fraction(0)], strict=True)]
+    value = [float(a) for a in c]
+    rest = [float(a - Fraction(b)) for a, b in zip(c, value, strict=True)]
+    near = [Twofold(*(np.array([x]) for x in (a, b, abs(a)))) for a, b in zip(value, rest, strict=True)]
+    found, sure = brackets(near, 1, COEFFICIENT)
+    assert not sure.any()
+    assert len(found.cell) == zeros.count("3")
 
 
 @pytest.mark.parametrize("power", [-18, -24, -30, -36, -40])
