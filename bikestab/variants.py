@@ -174,8 +174,9 @@ def own_value(bicycle: Bicycle, name: str) -> float | None:
 
 
 def _meanings(bicycle: Bicycle) -> dict[str, str]:
-    """What may vary: meaning and unit by name."""
-    return {**PAPER, **bicycle.notation, **FRONT}
+    """What may vary: meaning and unit by name, those of the bicycle's own notation first."""
+    own = {**bicycle.notation, **FRONT}
+    return own | {name: meaning for name, meaning in PAPER.items() if name not in own}
 
 
 def _sigma(bicycle: Bicycle, numbers: Mapping[str, Any], machine: Bicycle | Machines) -> tuple[Any, bool]:

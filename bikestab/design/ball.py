@@ -22,7 +22,7 @@ from bikestab.design.rays import FARTHEST, first_ends
 from bikestab.draws import evenly
 from bikestab.errors import InputError
 from bikestab.lean import lean_numpy
-from bikestab.limits import MOST_TRAIL
+from bikestab.limits import MOST, MOST_TRAIL
 from bikestab.machines import Machines, standard_normal
 from bikestab.model import Floats, Model, characteristic_table
 from bikestab.routh import conditions
@@ -68,10 +68,9 @@ class Ball:
         except InputError as error:
             raise InputError(error.problem, key=("sd",), hint=error.hint) from None
         for name, deviation in self.deviations.items():
-            if not deviation > 0:
-                raise InputError(
-                    f"{name}={deviation:g} is not positive", key=("sd",), hint="allowed: above 0"
-                )
+            if not 0 < deviation <= MOST:
+                problem = f"{name}={deviation:g} is no standard deviation"
+                raise InputError(problem, key=("sd",), hint=f"allowed: above 0 up to {MOST:g}")
             if name == "R" and name not in self.ends and own_value(self.bicycle, name) is None:
                 problem = f"the bicycle {self.bicycle.name!r} has two wheels that differ, and no R"
                 raise InputError(problem, key=("sd",), hint="give R1 and R2")

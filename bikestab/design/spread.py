@@ -16,7 +16,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.design.sensitivity import Hold, Sensitivity, sensitivity
 from bikestab.draws import correlation_matrix, drawn
 from bikestab.errors import InputError, nearest
-from bikestab.limits import MOST_TRAIL
+from bikestab.limits import MOST, MOST_TRAIL
 from bikestab.machines import Machines
 from bikestab.model import Floats, characteristic_table
 from bikestab.speeds import intervals_of
@@ -140,8 +140,8 @@ def _check(found: Sensitivity, deviations: Mapping[str, float]) -> None:
     for name, deviation in deviations.items():
         if name not in known:
             raise InputError(f"there is no parameter {name!r}", key=("sd",), hint=nearest(name, known))
-        if not (math.isfinite(deviation) and deviation >= 0):
-            hint = "allowed: 0 and above"
+        if not 0 <= deviation <= MOST:
+            hint = f"allowed: from 0 to {MOST:g}"
             problem = f"{name}={deviation:g} is no standard deviation"
             raise InputError(problem, key=("sd",), hint=hint)
     for names, what in ((_trails(found.bicycle), "trail"), (_TILTS, "tilt")):

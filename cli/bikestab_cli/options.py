@@ -234,7 +234,8 @@ def told_as_options(**others: str) -> Iterator[None]:
             example = hint.rpartition(" ")[2]
             problem = f"{error.problem}: give {option}, for example {option} {example}"
             raise click.UsageError(problem, click.get_current_context()) from None
-        for argument, its_option in others.items():
+        listed = hint.startswith("known: ")  # parameters, and no arguments
+        for argument, its_option in {} if listed else others.items():
             hint = re.sub(rf"(?<![\w-]){re.escape(argument)}\b", its_option, hint)
         problem = f"{error.problem}; {hint}" if hint else error.problem
         raise click.BadParameter(problem, param_hint=option) from None

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import click
 
 from bikestab.errors import InputError, nearest
+from bikestab.limits import MOST
 from bikestab.units import quantity, united, units_in
 
 MOST_VALUES = 1_000_000
@@ -31,10 +32,9 @@ def deviations_given(
     """Whether those of the bicycle's file are asked for, and others by their parameters' names."""
     given = values_given(context, option, tuple(text for text in texts if text != "file"))
     for name, value in given.items():
-        if value <= 0:
-            raise click.BadParameter(
-                f"{name}={value:g} is no standard deviation; allowed: above 0", param=option
-            )
+        if not 0 < value <= MOST:
+            problem = f"{name}={value:g} is no standard deviation; allowed: above 0 up to {MOST:g}"
+            raise click.BadParameter(problem, param=option)
     return "file" in texts, given
 
 

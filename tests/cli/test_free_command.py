@@ -50,3 +50,12 @@ def test_a_picture_is_of_one_machine(told):
 def test_the_table_says_where_optima_lie(told):
     out = told("--bicycle", "sharp1971", "--free", "delta=0:20", "--free", "trail=5cm:20cm")[1]
     assert "widest: limit of delta, limit of trail\nlowest V1: limit of delta, limit of trail\n" in out
+
+
+def test_an_unknown_deviation_is_told_with_the_parameters_that_there_are(told):
+    code, out, err = told(*FREE, "--stable", "4.6:5.4", "--sd", "foo=1")
+    assert (code, out) == (2, "")
+    assert "has no parameter 'foo'; known: w, c, lam, g, delta, rR" in " ".join(err.split())
+    code, out, err = told(*FREE, "--stable", "4.6:5.4", "--sd", "mB=1e200")
+    assert (code, out) == (2, "")
+    assert "no standard deviation; allowed: above 0 up to 1e+09" in " ".join(err.split())

@@ -280,6 +280,7 @@ def test_a_sound_bicycle_has_no_warnings(monkeypatch, capsys):
         ("--lam 90deg --sigma 0.1", "does not meet the ground"),
         ("--lam 0:2:3 --sigma 0.1", "tilted by 2 rad does not meet the ground"),
         ("--lam 0.1 --sigma 0.1 --delta -1", "-1 is negative; allowed: 0 and above"),
+        ("--lam 0.1 --sigma 0.1 --sd m1=1e300", "m1=1e+300 is no standard deviation; allowed: above 0 up to"),
         ("--lam 0.1 --sigma 0.1 --model fine", "'refined', 'unrefined'"),
         ("--lam 0.1 --sigma 0.1 --bicycle meijard", "did you mean 'meijaard2007'?"),
         ("--lam 0.1 --sigma 0.1 --bicycle xyzzy", "known: dikarev1981, kooijman2011, meijaard2007"),
