@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.family import Family
+from bikestab.limits import MOST_SPEED
 from bikestab.model import Floats
 from bikestab.region.contours import contours, refined
 from bikestab.region.events import Box, event_at
@@ -65,14 +66,14 @@ def trace(
 def _in_space(box: Box, seeds: list[tuple[CurveName, Floats]], step: float) -> list[Curve]:
     """The pieces of the curves of which there are points (2, n) near them."""
     found = [(key, points, event_at(box, key, points).V) for key, points in seeds]
-    speeds = np.concatenate([V[np.isfinite(V)] for _, _, V in found]) if found else np.empty(0)
+    speeds = np.concatenate([V[V <= MOST_SPEED] for _, _, V in found]) if found else np.empty(0)
     if not len(speeds):
         return []
     space = Space(box, float(np.median(speeds)))
     points = np.concatenate([np.vstack([points, space.place(V)]) for _, points, V in found], axis=1)
     number = np.repeat(np.arange(len(found)), [len(V) for _, _, V in found])
     curve = np.array([SPATIAL.index(key) for key, _, _ in found])[number]
-    some = np.isfinite(points).all(axis=0)
+    some = np.concatenate([V <= MOST_SPEED for _, _, V in found])
     lines = followed(space, curve[some], points[:, some], number[some], step)
     return [piece for line in lines for piece in spans(space, line, step)]
 

@@ -104,19 +104,21 @@ def _ways(space: Space, curve: Index, start: Floats, along: Floats, longest: flo
         way = way * np.where(turn < 0, -1.0, 1.0)
         bend = np.arccos(np.clip(np.abs(turn), 0, 1))
         good = (moved < _ON * step[busy]) & (bend < _BEND) & np.isfinite(new).all(axis=0)
-        step[busy[~good]] *= 0.5
-        stuck = step[busy] < _LEAST * longest
         inside = ((new >= 0) & (new <= 1)).all(axis=0)
         home = good & (gone[busy] > 2 * longest) & _passed(at[:, busy], new, start[:, busy])
+        out = np.flatnonzero(good & ~inside & ~home)
+        if len(out):  # where no face is met the curve turns before it: so short a step tells
+            faces = _on_face(space, curve[busy[out]], at[:, busy[out]], new[:, out])
+            leaves = np.isfinite(faces).all(axis=0)
+            good[out[~leaves]] = False
+            for k, last in zip(out[leaves], faces.T[leaves], strict=True):
+                parts[busy[k]].append(last[:, np.newaxis])
+        step[busy[~good]] *= 0.5
+        stuck = step[busy] < _LEAST * longest
         for k in np.flatnonzero(good & inside & ~home):
             parts[busy[k]].append(new[:, [k]])
         for k in np.flatnonzero(home):
             parts[busy[k]].append(start[:, [busy[k]]])
-        out = np.flatnonzero(good & ~inside & ~home)
-        faces = _on_face(space, curve[busy[out]], at[:, busy[out]], new[:, out]) if len(out) else new[:, out]
-        for k, last in zip(out, faces.T, strict=True):
-            if np.isfinite(last).all():
-                parts[busy[k]].append(last[:, np.newaxis])
         taken = busy[good]
         gone[taken] += step[taken]
         at[:, taken], along[:, taken] = new[:, good], way[:, good]

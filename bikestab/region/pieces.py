@@ -16,6 +16,7 @@ NAMES: dict[CurveName, str] = {name: name for name in get_args(CurveName)} | {
     "slow meet": "weave meets capsize",  # at zero frequency
 }
 HOP = "hop"  # the end of a piece whose line went on along another branch of the same function
+LOST = "not followed"  # the end of a piece where its curve could not be followed further
 _SAME = 1e-6  # of the box: the uncertainty of a point where curves touch
 
 
@@ -25,8 +26,8 @@ class Curve(NamedTuple):
     ``name`` is a value of NAMES. ``x`` and ``y`` of the family and ``V`` [m/s], shape (point,), are on
     the curve to rounding; V is where it happens: inf for a root that leaves upwards, NaN where p4 = 0.
     ``closes`` tells whether an interval closes there, V1 = V2; else two meet, or one gets another end.
-    ``ends`` says what stops the piece at its first and last point: ``box``, ``closed``, or the name of
-    another curve.
+    ``ends`` says what stops the piece at its first and last point: ``box``, ``closed``, the name of
+    another curve, or LOST.
     """
 
     name: str

@@ -7,25 +7,29 @@ from itertools import pairwise
 from typing import cast
 
 import numpy as np
+from numpy.typing import NDArray
 
+from bikestab.limits import MOST_SPEED
 from bikestab.model import Floats
 from bikestab.region.events import Event, event_at
 from bikestab.region.following import Line
-from bikestab.region.pieces import NAMES, Curve
+from bikestab.region.pieces import LOST, NAMES, Curve
 from bikestab.region.skeleton import CurveName
 from bikestab.region.space import SPATIAL, Space
 from bikestab.region.stretches import NEAR_END
 
 _BESIDE = 1e-2  # of a step: so far from an end of a line its event is looked at, for rounding at V = 0 and ∞
 _SECTIONS = 64  # of a step at a time, where an event changes in it
+_TOLD = 2e4  # m/s: at higher speeds rounding of the slopes by V would tell whether an interval closes
 _ROUNDS = 3  # of Newton's method: from a section's chord to rounding
 
 
 def spans(space: Space, line: Line, step: float) -> Iterator[Curve]:
     """The parts of a line across which the stable intervals change, all in the same way."""
     points, closed = line.points, bool((line.points[:, 0] == line.points[:, -1]).all())
+    told = np.inf if (points[2, [0, -1]] == 1).any() else _TOLD  # what goes on to infinity is told there
     beside = _beside(space, line.curve, points)
-    state = _event(space, line.curve, beside).state
+    state = _as_told(space.speed(beside[2]), _event(space, line.curve, beside).state, told)
     if closed and len(np.unique(state)) > 1:  # start where something changes
         shift = int(np.flatnonzero(np.diff(state))[0]) + 1
         order = np.append(np.roll(np.arange(len(state) - 1), -shift), shift)
@@ -37,12 +41,12 @@ def spans(space: Space, line: Line, step: float) -> Iterator[Curve]:
         run, ends = points[:, start:stop], ["closed", "closed"]
         for side, (end, outside) in enumerate(((start, start - 1), (stop - 1, stop))):
             if 0 <= outside < len(state):
-                ends[side], last = _end(space, line.curve, beside[:, [end, outside]], state[start])
+                ends[side], last = _end(space, line.curve, beside[:, [end, outside]], state[start], told)
                 run = np.column_stack([run, last] if side else [last, run])
             elif not closed:
-                ends[side] = _left(line.curve, points[:, end])
+                ends[side] = _left(space, line.curve, points[:, end])
         run = _denser(space, line.curve, run, (ends[0], ends[1]), step)
-        if run.shape[1] > 1:
+        if run.shape[1] > 1 and space.speed(run[2]).min() <= MOST_SPEED:
             x, y = space.box.real(run[:2])
             closes = bool(state[start] == 2)
             yield Curve(NAMES[SPATIAL[line.curve]], x, y, space.speed(run[2]), closes, (ends[0], ends[1]))
@@ -58,6 +62,17 @@ def _beside(space: Space, curve: int, points: Floats) -> Floats:
     return points
 
 
+def _as_told(V: Floats, state: NDArray[np.intp], told: float) -> NDArray[np.intp]:
+    """States at points of a line at speeds V: beyond ``told`` those of the nearest below it, or of most."""
+    known = np.flatnonzero(told >= V)
+    if len(known):
+        nearest = known[np.abs(np.arange(len(V))[:, np.newaxis] - known).argmin(axis=1)]
+        state = state[nearest]
+    else:
+        state = np.full(len(V), np.bincount(state).argmax())
+    return np.where((told < V) & (MOST_SPEED < V), 0, state)
+
+
 def _event(space: Space, curve: int, points: Floats) -> Event:
     event = event_at(space.box, SPATIAL[curve], points[:2], space.speed(points[2]))
     if SPATIAL[curve] != "fold":
@@ -67,15 +82,16 @@ def _event(space: Space, curve: int, points: Floats) -> Event:
     return event._replace(holds=np.vstack([alone, event.holds]), ends=("crossing", *event.ends))
 
 
-def _left(curve: int, point: Floats) -> str:
+def _left(space: Space, curve: int, point: Floats) -> str:
     """What a line goes to where it leaves the box, or has no direction any more: a fold at a crossing."""
     if ((point > 0) & (point < 1)).all():
-        return "fold"
+        crossing = SPATIAL[curve] == "fold" and space.crossed(point[:, np.newaxis])[0]
+        return NAMES["crossing"] if crossing else LOST
     own = "capsize" if "meet" in SPATIAL[curve] else "weave"
     return {0.0: f"{own} at rest", 1.0: f"{own} at infinity"}.get(float(point[2]), "box")
 
 
-def _end(space: Space, curve: int, pair: Floats, state: int) -> tuple[str, Floats]:
+def _end(space: Space, curve: int, pair: Floats, state: int, told: float) -> tuple[str, Floats]:
     """What a curve meets where, between two points (3, 2) of it, its event changes from ``state``."""
     a, b = pair.T
     which, rounds = np.full(_SECTIONS + 1, curve), _ROUNDS
@@ -85,11 +101,14 @@ def _end(space: Space, curve: int, pair: Floats, state: int) -> tuple[str, Float
         points, _, _ = space.onto(which, chord, across, rounds, exact=True)
         points = np.where(np.isfinite(points).all(axis=0), points, chord)
         rounds = 1  # a chord of a section is by a factor of its square nearer to the curve
-        same = _event(space, curve, points).state == state
+        V = space.speed(points[2])
+        same = np.where(told < V, MOST_SPEED >= V, _event(space, curve, points).state == state)
         last = _SECTIONS - 1 if same.all() else max(int(np.argmin(same)) - 1, 0)
         if np.abs(points[:, last + 1] - points[:, last]).max() >= np.abs(b - a).max():
             break
         a, b = points[:, last], points[:, last + 1]
+    if space.speed(pair[2, 1]) > told:
+        return "box", a
     event = _event(space, curve, pair)
     failing = np.flatnonzero(event.holds[:, 0] & ~event.holds[:, 1])
     met = event.ends[failing[0]] if len(failing) else "fold"  # where weave turns back on the curve
@@ -103,7 +122,7 @@ def _denser(space: Space, curve: int, run: Floats, ends: tuple[str, str], step: 
     cross each other; ``step`` is the grid's.
     """
     for side, end in enumerate(ends):
-        if end in ("box", "closed") or run.shape[1] < 3:
+        if end in ("box", "closed", LOST) or run.shape[1] < 3:
             continue
         points = run[:, ::-1] if side else run
         away = points[:2] - points[:2, :1]

@@ -6,9 +6,14 @@ from mpmath import mp, mpf
 
 import bikestab as bs
 from bikestab.family import Family
+from bikestab.limits import MOST_SPEED
 from bikestab.model import characteristic_table
 from bikestab.region.curves import trace
+from bikestab.region.events import Box
+from bikestab.region.pieces import LOST
 from bikestab.region.points import WITHIN, _solved, points_of
+from bikestab.region.space import SPATIAL, Space
+from bikestab.region.spans import _left
 from bikestab.spectrum import growth_rate_of
 from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
 from tests.region.test_curves import derivative
@@ -249,3 +254,44 @@ def test_a_double_hopf_point():
     assert np.abs([point.x, point.y, point.V - 2]).max() < 1e-10
     p = Resonant().table(point.x, point.y) @ point.V ** np.arange(4.0)
     assert np.abs(np.abs(np.roots(p[::-1]).imag) - 1).max() < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("name", "delta", "pieces"),
+    [
+        ("dikarev1981", 1e-12, 7),
+        ("dikarev1981", 1e-9, 8),
+        ("dikarev1981", 1e-3, 9),
+        ("meijaard2007", 1e6, 2),
+        ("meijaard2007", 1e9, 0),
+        ("sharp1971", 1e9, 3),
+    ],
+)
+def test_hardly_any_and_huge_damping(name, delta, pieces):
+    """Curves go on to speeds at which 1 − w is tiny, and none is told of at speeds that are not allowed.
+
+    Where a step left the box by a face that the curve does not meet it was given up: with δ = 10⁻¹² at
+    239 m/s. With δ = 10⁹ there were 22 pieces of one curve at 10⁹ m/s, where rounding says what closes.
+    """
+    family = Family(bs.Bicycle.preset(name).with_delta(delta))
+    curves = trace(family, *BOX, samples=61)
+    assert len(curves) == pieces
+    assert "not resolved" not in {point.name for point in points_of(family, curves, *BOX)}
+    assert not any(LOST in curve.ends for curve in curves)
+    V = np.concatenate([np.zeros(1), *(curve.V for curve in curves)])
+    assert V[np.isfinite(V)].max() <= MOST_SPEED
+    for curve in curves:  # the middle of a fold from a double zero: two intervals on one of its sides
+        if curve.name == "fold" and not curve.closes:
+            i = len(curve.x) // 2
+            aside = [curve.x[i], curve.x[i]], [curve.y[i] - 1e-5, curve.y[i] + 1e-5]
+            number = bs.stable_intervals(family.bicycle, lam=aside[0], sigma=aside[1]).number
+            assert sorted(number.tolist()) == [1, 2]
+
+
+def test_what_gets_stuck_is_no_fold():
+    """A line that ends inside the box ends on a fold only where p1 = p3 = 0, else it was not followed."""
+    space = Space(
+        Box(Family(bs.Bicycle.preset("sharp1971").with_delta(1.0)), np.array(BOX), (0, np.inf)), 5.0
+    )
+    for curve in range(len(SPATIAL)):
+        assert _left(space, curve, np.array([0.4, 0.5, 0.6])) == LOST
