@@ -1,5 +1,7 @@
 """The pictures: ticks on the stable side, the arrow into the region, and that each is drawn."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from matplotlib.text import Text
@@ -63,13 +65,38 @@ def test_figures_are_drawn():
     assert len(right.lines) > 12
     words = [t.get_text() for t in found["refinement.png"].findobj(Text)]
     assert "unrefined: conditions at λ = 0.3 rad, no stable motion" in words
+    assert set(PICTURES.values()) == set(PLACES)
     words = {t.get_text() for t in found["machine.png"].findobj(Text)}
     assert {"φ0", "α", "β", "L", "d1", "λ"} <= words
-    figure = found["refinement.png"]
-    figure.set_layout_engine("constrained")  # it measures every text
+    for name, picture in PICTURES.items():
+        assert_in_place(found[name], picture)
+
+
+PICTURES = {
+    "machine.png": "machine", "figure3.png": "sections", "figure3_space.png": "space",
+    "refinement.png": "refinement", "conclusion1.png": "kinds", "conclusion2.png": "widths",
+    "conclusion4.png": "damping",
+}  # fmt: skip
+
+
+def assert_in_place(figure, picture):
+    """Axes with their texts are inside the picture and apart, and about where matplotlib's layout has them.
+
+    Only about: these are pictures of few samples, and with other labels it keeps other room free.
+    """
     figure.draw_without_rendering()
-    for ax, place in zip(figure.axes, PLACES["refinement"], strict=True):
-        assert ax.get_position().bounds == pytest.approx(place, abs=0.01)
+    boxes = [ax.get_tightbbox() for ax in figure.axes]
+    for box in boxes:
+        assert min(box.x0, box.y0) >= -1
+        assert box.x1 <= figure.bbox.x1 + 1
+        assert box.y1 <= figure.bbox.y1 + 1
+    assert all(one.x1 <= other.x0 + 1 for one, other in pairwise(boxes))
+    for ax in figure.axes:
+        ax.set_in_layout(True)  # which placing an axes ends
+    figure.set_layout_engine("constrained")
+    figure.draw_without_rendering()
+    for ax, place in zip(figure.axes, PLACES[picture], strict=True):
+        assert ax.get_position().bounds == pytest.approx(place, abs=0.05)
 
 
 def test_the_frame_s_lengths_are_those_of_the_printed_block():
