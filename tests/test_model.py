@@ -1,6 +1,7 @@
 """The table of the characteristic polynomial against other codes and in 40 digits."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -155,6 +156,13 @@ def test_nearly_singular_inertias_keep_their_digits(metre):
     np.testing.assert_allclose(p4, exact_table(bicycle, 0.3, sigma).value[4, 0], rtol=1e-11)
     alone = [characteristic_table(bicycle, 0.3, one)[4, 0] for one in sigma]
     assert p4.tolist() == alone
+
+
+def test_a_light_rear_part_leaves_the_bound_as_narrow_as_it_is():
+    """Two point masses, the rear one low and 1e-8 of the other: M nearly singular, p4 as certain as ever."""
+    light = {"m1": 1e-6, "m2": 100.0, "h1": 0.003, "h2": 1.0, "l1": 1.6, "l2": 0.7}
+    table = exact_table(replace(Bicycle.preset("kooijman2011"), **light), 0.1, [1e-6, 0.1])
+    assert np.all(table.error[4, 0] < 1e-25 * table.value[4, 0])
 
 
 def test_zero_speed_terms_of_damping():

@@ -84,6 +84,13 @@ def test_roots_from_1e_minus_6_to_1e6(scale):
     assert found(c) == pytest.approx([1e-6, 1e-3, 1, 1e3, 1e6], rel=ROUNDING * 2)
 
 
+@pytest.mark.parametrize("unit", [2.0**-40, 2.0**40])
+def test_roots_in_another_unit_are_as_near(unit):
+    assert found(polyfromroots([1, 2, 3]) / unit ** np.arange(4)) == pytest.approx(
+        [unit, 2 * unit, 3 * unit], rel=100 * EPS
+    )
+
+
 @pytest.mark.parametrize("gap", [2.0**-8, 2.0**-14, 2.0**-20])
 def test_close_roots_are_told_apart(gap):
     """(x − 1)(x − 1 − gap), and the same times (x − 5); κ is about 4/gap, and 40/gap."""

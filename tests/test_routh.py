@@ -120,6 +120,13 @@ def test_condition_polynomials_of_exact_cancellation(a2, b2, k):
     assert intervals_of(table).number == 0
 
 
+def test_what_is_left_of_nearly_all_of_the_first_coefficient_is_right():
+    """(1 + e) (1 − e) − 1 = −e²."""
+    table = np.zeros((5, 4))
+    table[:4, 0] = 1, 1 + 2.0**-50, 1 - 2.0**-50, 1
+    assert condition_polynomials(table)["hurwitz3"][0] == -(2.0**-100)
+
+
 def test_coefficients_in_proportion_to_the_inverse_speed_where_some_cells_have_none():
     table = np.zeros((5, 5, 3))
     table[:, 0], table[1, 4] = 2.0, [0, 3, -3]
@@ -180,3 +187,4 @@ def test_a_cell_has_the_same_bits_beside_any_others():
             assert value[i] + 0.0 == alone + 0.0
     for name in CONDITIONS:
         assert np.array_equal(condition(tables, name, V), getattr(together, name))
+        assert np.array_equal(condition(tables, name, 3.0), getattr(conditions(tables, 3.0), name))

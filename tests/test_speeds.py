@@ -244,6 +244,7 @@ def test_signs_are_not_certain_within_the_bounds_of_entries(k, j, known):
     [
         ({2: [], 4: [1, -1 / 3]}, False),  # p2 zero at all speeds tells nothing of p4
         ({1: [1, -1 / 3], 2: [1, -1 / 3]}, False),
+        ({1: [1, -1 / 3], 2: [1, -1 / 3], 3: [0.5], 4: [0.5]}, False),
         ({3: []}, True),
         ({4: []}, True),  # not stable, whatever the others are
     ],
@@ -281,6 +282,13 @@ def test_where_capsize_is_only_touched_the_answer_is_marginal_and_has_no_interva
     np.testing.assert_allclose([*zip(apart.V1, apart.V2, strict=True)], expected, rtol=1e-12)
     kinds = [*zip(apart.lower, apart.upper, strict=True)]
     assert kinds == ([(REST, CAPSIZE), (CAPSIZE, WEAVE)] if sign > 0 else [(CAPSIZE, CAPSIZE)])
+
+
+def test_stable_at_every_speed_but_rest():
+    """s⁴ + V s³ + 3 s² + V s + 1: hurwitz3 = V²."""
+    table = table_of({(4, 0): 1, (3, 1): 1, (2, 0): 3, (1, 1): 1, (0, 0): 1})
+    assert tuples_of(table) == [(0.0, np.inf, REST, UNBOUNDED)]
+    assert intervals_of(table).marginal == 0
 
 
 def test_an_ordinary_answer_is_certain_and_has_narrow_bounds():
