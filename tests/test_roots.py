@@ -110,6 +110,11 @@ def test_cells_of_different_degree():
     assert x[1] == pytest.approx([np.nan] * 4 + [3, np.nan], nan_ok=True)
 
 
+def test_zero_is_no_positive_root_of_a_quadratic_beside_others():
+    x = positive_roots(np.array([[0.0, 2, -6], [-2, -3, 1], [1, 1, 1]]))
+    np.testing.assert_array_equal(x, [[2, 1, 2], [np.nan, 2, np.nan]])
+
+
 def test_linear_ones():
     """In x and in x²: one root where the signs differ, none without a slope or beyond double precision."""
     c0, c1 = (
