@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from bikestab.against import Against
+from bikestab.against import Against, Curve
 from bikestab.modenames import OSCILLATING
 from bikestab.plot.axes import ticks_inside
 from bikestab.plot.growth import plain_ticks
@@ -29,7 +31,7 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
         scale, unit = math.degrees(1), "°"
     figure = Figure(figsize=(5.6, 4.4), layout="constrained")
     ax = figure.add_subplot()
-    for curve in found.curves:
+    for curve in _joined(found.curves):
         color, width = STYLES[curve.name]
         ax.plot(scale * curve.x, curve.s.real, color=color, lw=width)
         if curve.name in OSCILLATING:
@@ -61,3 +63,27 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     where = f"stable for {words} = {ends} {unit}".replace(" °", "°") if ends else "nowhere stable"
     set_title(ax, f"{short(name)}: eigenvalues at {V:g} m/s", where)
     return figure
+
+
+def _joined(curves: Sequence[Curve]) -> list[Curve]:
+    """Curves that go on where others of their name end as one, so that dashes do not begin anew."""
+    chains: list[list[Curve]] = []
+    ends: dict[tuple[str, float], list[int]] = {}  # chains by name and where they end so far
+    for curve in sorted(curves, key=lambda each: each.x[0]):
+        open_ = ends.get((curve.name, curve.x[0]), [])
+        near = [i for i in open_ if np.isclose(chains[i][-1].s[-1], curve.s[0], rtol=1e-6, atol=1e-9)]
+        if near:
+            open_.remove(near[0])
+            chains[near[0]].append(curve)
+        else:
+            near = [len(chains)]
+            chains.append([curve])
+        ends.setdefault((curve.name, curve.x[-1]), []).append(near[0])
+    return [
+        Curve(
+            chain[0].name,
+            np.concatenate([each.x for each in chain]),
+            np.concatenate([each.s for each in chain]),
+        )
+        for chain in chains
+    ]

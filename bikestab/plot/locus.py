@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from bikestab.bicycle import Bicycle
-from bikestab.model import Floats, Model, exact_table
+from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.modes import Modes, follow
 from bikestab.plot.arranged import arrange_plane
 from bikestab.plot.axes import HALO, remarks, ticks_inside
@@ -20,6 +21,7 @@ from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.modes import BAND, STYLES
 from bikestab.plot.placing import Room, beside
 from bikestab.plot.settings import own_settings
+from bikestab.speeds import intervals_of
 
 _SAMPLES = 1201
 _MARKS = 11  # speeds that are written, at most
@@ -64,7 +66,7 @@ def draw_locus(
     handles.append(Line2D([], [], color="0.2", marker=">", ms=6, ls="none", label="faster"))
     handles.append(Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="dies out"))
     away = "" if left <= float(s.real.min()) else f"; left of {left:.3g} not shown".replace("-", "−")
-    words = f"λ = {lam:.4g} rad, σ = {sigma:.4g}{remarks(bicycle, model)}{away}"
+    words = f"λ = {lam:.4g} rad, σ = {sigma:.4g}{remarks(bicycle, model)}; {_stable(table)}{away}"
     set_title(ax, f"{short(bicycle.name)}: root locus for {start:g} to {stop:g} m/s", words)
     arrange_plane(figure, ax, None, legend_below(figure, handles, handlelength=2))
     room = Room(ax)
@@ -81,6 +83,16 @@ def draw_locus(
     for _, s_part, _ in parts:
         _arrowheads(ax, room, s_part)
     return figure
+
+
+def _stable(table: ExactTable) -> str:
+    """At which speeds motion is stable, in words."""
+    found = intervals_of(table)
+    ends = [
+        f"from {V1:.4g} m/s on" if math.inf == V2 else f"from {V1:.4g} to {V2:.4g} m/s"
+        for V1, V2 in zip(found.V1[: found.number], found.V2[: found.number], strict=True)
+    ]
+    return f"stable {', '.join(ends)}" if ends else "never stable"
 
 
 def _parts(modes: Modes) -> list[tuple[str, Any, Floats]]:

@@ -214,3 +214,11 @@ def test_a_motion_that_a_linear_model_cannot_tell(bikestab):
     sentence = "the model is linear: beyond about 0.5 rad"
     assert sentence in bikestab(*args, "20")[1]
     assert sentence not in bikestab(*args, "1")[1]
+
+
+def test_curves_are_drawn_in_one_piece_however_many_values_there_are():
+    """Dashes that begin anew at each value make a solid line."""
+    found = modes_against(bs.Bicycle.preset("meijaard2007"), "delta", np.linspace(0, 5, 101), 4.0)
+    (ax,) = draw_against("meijaard2007", found, 4.0, "kg m²/s").axes
+    spans = [line.get_xdata() for line in ax.lines if len(line.get_xdata()) > 2]
+    assert [(x[0], x[-1]) for x in spans] == [(0.0, 5.0)] * 4  # weave twice, capsize and castering
