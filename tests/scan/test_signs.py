@@ -1,5 +1,7 @@
 """The mask from exact roots against the conditions evaluated at every point."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -153,8 +155,8 @@ def assert_tiles_leave_no_trace(table):
     """Of one cell, at speeds around those where hurwitz3 has its zeros."""
     fine = critical(table)
     w = np.ravel(fine.speeds["hurwitz3"])
-    centre = np.mean(w[np.isfinite(w)]) if np.isfinite(w).any() else 5.0
-    for step in (1e-7, 1e-9, 1e-11, 2.0**-52):
+    w = w[np.isfinite(w)] if np.isfinite(w).any() else [5.0]
+    for centre, step in product((np.mean(w), w[0]), (1e-7, 1e-9, 1e-11, 2.0**-52)):
         V = centre * (1 + step * np.arange(-150, 151))
         np.testing.assert_array_equal(in_tiles(table, V, 80), violated_between(table, fine, V))
 
@@ -169,6 +171,12 @@ def test_a_pair_that_double_precision_cannot_tell_is_there_in_every_tile():
     inside = np.clip(V, one, other) == V
     assert np.count_nonzero((bit == 1) == inside) <= 2
     assert_tiles_leave_no_trace(table)
+
+
+def test_tiles_next_to_a_fold():
+    """Of sure zeros rough ones are elsewhere, and tiles end beside zeros."""
+    for sigma in folds(DIKAREV, 0.2):
+        assert_tiles_leave_no_trace(exact_table(DIKAREV, 0.2, [sigma]))
 
 
 @settings(deadline=None, max_examples=4, derandomize=True)
