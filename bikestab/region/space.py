@@ -55,6 +55,7 @@ class Space:
         """Where, at points (3, n), p1 = p3 = 0 as far as differences tell: hurwitz3 has no slope there."""
         polynomials, power = speed_polynomials(self.box.table(points[:2]))
         V = self.speed(points[2]) ** power
+        V = np.where(np.isfinite(V), V, np.nan)  # of which no fold is
         parts = [value(p, V) / value(np.abs(p), V) for p in (polynomials["p1"], polynomials["p3"])]
         return np.asarray(np.abs(parts).max(axis=0) < _CROSSED)
 

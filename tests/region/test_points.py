@@ -16,6 +16,7 @@ from bikestab.region.space import SPATIAL, Space
 from bikestab.region.spans import _left
 from bikestab.spectrum import growth_rate_of
 from tests.references.generate_speeds import BENCHMARK, PAPER, at, condition_polynomials, polynomial
+from tests.references.verify_meshes import pairs
 from tests.region.test_curves import derivative
 from tests.region.test_damping import random_machine
 
@@ -295,3 +296,11 @@ def test_what_gets_stuck_is_no_fold():
     )
     for curve in range(len(SPATIAL)):
         assert _left(space, curve, np.array([0.4, 0.5, 0.6])) == LOST
+
+
+def test_no_fold_is_at_infinity():
+    """p1 and p3 of infinite speeds have no signs, and numpy warned of them."""
+    family, box = list(pairs(160, 1))[159]
+    assert trace(family, *box, samples=41)
+    space = Space(Box(family, np.array(box[:2]), (0, np.inf)), 5.0)
+    assert not space.crossed(np.array([[0.3], [0.05], [1.0]])).any()
