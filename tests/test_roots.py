@@ -110,6 +110,12 @@ def test_cells_of_different_degree():
     assert x[1] == pytest.approx([np.nan] * 4 + [3, np.nan], nan_ok=True)
 
 
+def test_a_value_of_one_at_the_first_step_is_not_the_end():
+    """x² − 3 at 2, the middle of 1 … 4."""
+    got = bracketed_root(np.array([[-3.0], [0], [1]]), np.ones(1), np.full(1, 4.0), np.ones(1))
+    np.testing.assert_allclose(got, np.sqrt(3), rtol=4 * EPS)
+
+
 def test_zero_is_no_positive_root_of_a_quadratic_beside_others():
     x = positive_roots(np.array([[0.0, 2, -6], [-2, -3, 1], [1, 1, 1]]))
     np.testing.assert_array_equal(x, [[2, 1, 2], [np.nan, 2, np.nan]])
