@@ -116,9 +116,9 @@ def test_a_value_of_one_at_the_first_step_is_not_the_end():
     np.testing.assert_allclose(got, np.sqrt(3), rtol=4 * EPS)
 
 
-def test_zero_is_no_positive_root_of_a_quadratic_beside_others():
-    x = positive_roots(np.array([[0.0, 2, -6], [-2, -3, 1], [1, 1, 1]]))
-    np.testing.assert_array_equal(x, [[2, 1, 2], [np.nan, 2, np.nan]])
+def test_quadratics_without_their_first_or_last_coefficient_beside_others():
+    x = positive_roots(np.array([[0.0, 2, -6, -6], [-2, -3, 1, 2], [1, 1, 1, 0]]))
+    np.testing.assert_array_equal(x, [[2, 1, 2, 3], [np.nan, 2, np.nan, np.nan]])
 
 
 def test_linear_ones():
