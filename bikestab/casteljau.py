@@ -12,11 +12,14 @@ _NEWTON, _SETTLED = 6, 1e-9  # steps to an extreme value, and the last one's siz
 _EDGE = 2.0**-45  # so close to an end of its interval no cut is put at an extreme value
 
 
-def extremes(b: Twofold, start: Floats, share: float) -> tuple[Floats, NDArray[np.bool_]]:
+def extremes(
+    b: Twofold, start: Floats, share: float, *, alone: bool = False
+) -> tuple[Floats, NDArray[np.bool_]]:
     """Where to cut 0 … 1 so that polynomials with an extreme value close to zero are soon decided.
 
     At that value, found by Newton's method, if it is beyond zero, else on either side of it, where the means
-    have its sign; ``start`` if there is none. And whether it may be zero, so that no cut decides.
+    have its sign; ``start`` if there is none. And whether it may be zero, so that no cut decides; with
+    ``alone`` only where there is no other zero beside it.
     """
     slopes, t = np.diff(b.value, axis=0), start
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -28,11 +31,22 @@ def extremes(b: Twofold, start: Floats, share: float) -> tuple[Floats, NDArray[n
             t, move = t - (move := (c[0] + t * (c[1] - c[0])) / bend), move
         found = (t > 0) & (t < 1) & (np.abs(move) < _SETTLED)
         t = np.where(found, t, start)
-        there = parts(b, t)[0].at(-1)
+        left, right = parts(b, t)
+        there = left.at(-1)
         away = 0.7 * np.sqrt(np.fmax(2 * there.value / (len(slopes) * bend), 0))
         t = np.where(t > 1.5 * away, t - away, t + away)
     usable = found & (t > _EDGE) & (t < 1 - _EDGE)
-    return np.where(usable, t, start), found & (np.abs(there.value) <= share * there.size)
+    double = found & (np.abs(there.value) <= share * there.size)
+    if alone:  # else cut elsewhere, so that they come apart
+        other = double & ~(_one_sign(left, share) & _one_sign(right, share))
+        usable, double = usable & ~other, double & ~other
+    return np.where(usable, t, start), double
+
+
+def _one_sign(b: Twofold, share: float) -> NDArray[np.bool_]:
+    """Whether coefficients beyond that share of their terms are of one sign, so that nothing else is zero."""
+    clear = np.abs(b.value) > share * b.size
+    return ~((clear & (b.value > 0)).any(axis=0) & (clear & (b.value < 0)).any(axis=0))
 
 
 def parts(b: Twofold, at: Floats) -> tuple[Twofold, Twofold]:

@@ -105,7 +105,8 @@ def _isolated(
         at = np.where(work.low == 0, 0.125, 0.5)
         if work.b.rest is not None:
             pair = np.flatnonzero(changes == 2)
-            at[pair], double = extremes(work.b.at((slice(None), pair)), at[pair], share or 16 * COEFFICIENT)
+            some, close = work.b.at((slice(None), pair)), share or 16 * COEFFICIENT
+            at[pair], double = extremes(some, at[pair], close, alone=not share)
             undecided[work.cell[pair[double]]] |= share > 0
             apart = np.ones(len(at), bool)
             apart[pair[double]] = False

@@ -5,6 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import bikestab as bs
 import bikestab.critical
 import bikestab.isolation
 from bikestab import signchanges
@@ -167,3 +168,13 @@ def test_tabulated_sign_changes_are_those_counted():
         few = [signchanges.sign_changes(*half) for half in halves]
         for values, parts in zip(many, zip(*few, strict=True), strict=True):
             np.testing.assert_array_equal(values, np.concatenate(parts))
+
+
+def test_a_guess_keeps_a_zero_beside_one_that_is_hardly_positive():
+    """hurwitz3 is zero at some 1e-13 m/s and at V1; its least value near the former may be zero."""
+    sigma = [0.031088436576, 0.0310884365762, 0.0310884365765]
+    found = bs.stable_intervals(
+        bs.Bicycle.preset("dikarev1981").with_delta(1.0), lam=0.2347369142973972, sigma=sigma
+    )
+    assert found.number.tolist() == [1, 1, 1]
+    assert found.V1[:, 0] == pytest.approx(2.493606, abs=1e-6)
