@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.config.correlation import with_known
+from bikestab.config.expectations import Outcome, outcomes
 from bikestab.config.parts import GRIDS
 from bikestab.config.scanconfig import CheckConfig, Expectation, Plane, ScanConfig
 from bikestab.config.values import Strict
@@ -43,10 +44,28 @@ def load_checked(path: str | Path) -> ScanConfig | CheckConfig:
     Raises as ``load_config``.
     """
     with expected("config", path):
+        return _for_check(_read(path))
+
+
+def checked(path: str | Path) -> tuple[ScanConfig | CheckConfig, list[Outcome], list[int]]:
+    """The same, what became of its expectations, and on which lines these are.
+
+    Raises as ``load_config``, also where there are none.
+    """
+    with expected("config", path):
         document = _read(path)
-        if isinstance(document.data, dict) and document.data.keys() <= CheckConfig.model_fields.keys():
-            return _parsed(document, {}, CheckConfig)
-        return parse_config(document)
+        config = _for_check(document)
+    try:
+        found = outcomes(config)
+    except InputError as error:
+        raise document.located(error) if error.key else error.at(document.file) from None
+    return config, found, [document.line(("expect", i)) for i in range(len(found))]
+
+
+def _for_check(document: yamltext.Document) -> ScanConfig | CheckConfig:
+    if document.data.keys() <= CheckConfig.model_fields.keys():
+        return _parsed(document, {}, CheckConfig)
+    return parse_config(document)
 
 
 def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> ScanConfig:

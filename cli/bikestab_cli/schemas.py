@@ -113,6 +113,15 @@ _ROBUST = record(
     nearest=named(NUMBERS, "the nearest machine that is not stable, by parameter"),
 )  # fmt: skip
 _WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")
+_SPEED_OR_UNBOUNDED = ({"const": "unbounded"}, NUMBERS)
+_EDGE = record(
+    "an end of stable speeds", name={"enum": ["V1", "V2"], "description": "which"},
+    expected=either(*_SPEED_OR_UNBOUNDED, text="[m/s]"),
+    found=either(*_SPEED_OR_UNBOUNDED, NULL, text="[m/s]; null: no stable speed"),
+    difference=maybe("found - expected [m/s]; null: no number"), percent=maybe("of what is expected"),
+    tolerance=maybe("how large it may be [m/s]; null where unbounded is expected"),
+    within=flag("whether it is as expected"),
+)  # fmt: skip
 _AXIS = record(
     "an axis", first=num("first value"), last=num("last value"), num=whole("how many"),
     unit=words("as in the file"),
@@ -166,14 +175,19 @@ SCHEMAS: dict[str, Schema] = {
     "check": answer(
         either(
             record(
-                "one expectation", ("over",), config=words("the file"), bicycle=words("its bicycle"),
+                "one expectation", ("over",), config=words("the file"), line=whole("of the file"),
+                bicycle=words("its bicycle"),
                 model=MODEL, over=named(NUMBERS, "other parameters' values, in SI units"), **DESIGN,
                 expected=record(
                     "as in the config", ("V1", "V2", "within", "stable"), V1=num("[m/s]"),
                     V2=either(NUMBERS, {"const": "unbounded"}, text="[m/s]"), within=_WITHIN,
                     stable={"const": "never"},
                 ),
-                intervals=INTERVALS, holds=flag("whether it is so"),
+                intervals=INTERVALS,
+                nearest={"type": ["integer", "null"],
+                "description": "the number, from 0, of the interval that comes nearest; null: none"},
+                edges=some(_EDGE, "the ends that are expected, as that interval has them"),
+                holds=flag("whether it is so"), problem=words("what is not, in words; empty where it is so"),
             ),
             record("a file that cannot be used", config=words("the file"), error=words("why")),
             text="an expectation, or a file that cannot be used",

@@ -3,11 +3,15 @@
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import junitparser
 import pytest
+from bikestab_cli.check_words import problem_of
 from ruamel.yaml import YAML
 
+from bikestab.config.expectations import nearest_interval
+from bikestab.config.parts import Expectation
 from bikestab.config.tolerance import allowance
 
 ROOT = Path(__file__).parents[2]
@@ -112,7 +116,12 @@ def test_junit(bikestab):
     assert failure.message == "V1 is 4.292382536341, not 5 within 0.001: -0.7076 m/s, -14.15%"
     (error,) = next(iter(suites[2])).result
     assert isinstance(error, junitparser.Error)
-    assert failure.text == "expected [m/s]: 5 any within 0.001\nfound [m/s]: 4.292382536341 6.024262015388"
+    text = "expected [m/s]: 5 any within 0.001\nfound [m/s]: 4.292382536341 6.024262015388"
+    assert failure.text == f"{text}\nat bad & <odd>.yaml, line 2"
+    assert error.message == error.text.replace("\n", "; ")
+    assert error.message.startswith(
+        "none\N{REPLACEMENT CHARACTER}.yaml: there is no such file; YAML files in"
+    )
 
     def look(element):
         attributes, inner = ALLOWED[element.tag]
@@ -194,16 +203,63 @@ def test_other_parameters_are_told_of(bikestab):
     assert json.loads(out)["results"][0]["intervals"] == first["intervals"]
 
 
-@pytest.mark.parametrize(
-    ("entry", "message"),
-    [
-        ("V1: 4.3, V2: unbounded, within: 1%", "V2 is 6.024262015388, not unbounded within 1%"),
-        ("stable: never", "stable speeds were found, and none expected"),
-        ("lam: 0.1, sigma: 0.02, V1: 5", "no stable speed was found"),
-    ],
-)
-def test_what_is_wrong_is_said(bikestab, entry, message):
-    write("a.yaml", entry)
-    assert bikestab("check", "a.yaml", "--junit", "a.xml")[0] == 1
+FAILURES = [  # an entry, what is said of it, and its ends: found, difference, tolerance
+    (
+        "V1: 4.3, V2: unbounded, within: 1%",
+        "V2 is 6.024262015388, not unbounded within 1%",
+        [(4.292382536341104, -0.007617463658896, 0.043), (6.024262015388358, None, None)],
+    ),
+    (
+        "V1: 5, within: 2%",
+        "V1 is 4.292382536341, not 5 within 2% (0.1 m/s): -0.7076 m/s, -14.15%",
+        [(4.292382536341104, -0.707617463658896, 0.1)],
+    ),
+    (
+        "stable: never",
+        "stable speeds were found, and none expected: 4.29238 ... 6.02426 m/s",
+        [],
+    ),
+    (
+        "lam: 0.1, sigma: 0.02, V1: 5, V2: unbounded",
+        "no stable speed was found, and V1 5, V2 unbounded expected",
+        [(None, None, 0.001), (None, None, None)],
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("entry", "message", "ends"), FAILURES)
+def test_what_is_wrong_is_said_in_numbers(bikestab, entry, message, ends):
+    """In the same words everywhere; the ends are those of the benchmark's published 4.2924 and 6.0243 m/s."""
+    write("a.yaml", "V1: 4.2924", entry)
+    code, out, _ = bikestab("check", "a.yaml", "--junit", "a.xml", "--json")
+    record = json.loads(out)["results"][1]
+    assert (code, record["problem"], record["line"]) == (1, message, 2)
+    assert len(record["edges"]) == len(ends)
+    for edge, (found, difference, tolerance) in zip(record["edges"], ends, strict=True):
+        told = (edge["found"], edge["difference"], edge["tolerance"])
+        assert told == pytest.approx((found, difference, tolerance), abs=1e-12)
+        assert edge["within"] is (difference is not None and abs(difference) <= tolerance)
+        assert edge["percent"] == (
+            difference and pytest.approx(100 * difference / edge["expected"], abs=1e-9)
+        )
     (suite,) = junitparser.JUnitXml.fromfile("a.xml")
     assert [failure.message for case in suite for failure in case.result] == [message]
+    lines = bikestab("check", "a.yaml")[1].splitlines()
+    assert all(len(line) <= 80 for line in lines)
+    (first,) = (i for i, line in enumerate(lines) if line.startswith("a.yaml, line"))
+    assert " ".join(line.strip() for line in lines[first:]) == f"a.yaml, line 2: expect[1]: {message}"
+
+
+def test_which_of_several_intervals_is_nearest_is_told():
+    """The one that misses the fewest ends, and among such the one that is nearest."""
+    expected = Expectation(V1=3, V2=8, within=0.5)
+    found = [{"V1": a, "V2": b} for a, b in ((1, 2), (3.1, 9), (2, 7), (20, None))]
+    number, edges = nearest_interval(expected, found)
+    assert (number, [edge.holds for edge in edges]) == (1, [True, False])
+    assert nearest_interval(Expectation(V2="unbounded"), found)[0] == 3
+    assert nearest_interval(Expectation(V2="unbounded"), found[:3])[0] == 0
+    outcome = SimpleNamespace(holds=False, expected=expected, nearest=number, edges=edges, found=found)
+    assert problem_of(outcome) == (
+        "V2 is 9, not 8 within 0.5: +1 m/s, +12.50% "
+        "(nearest of 4 intervals: 1 ... 2, 3.1 ... 9, 2 ... 7, 20 ... unbounded m/s)"
+    )
