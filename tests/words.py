@@ -32,6 +32,13 @@ def faults(figure):
     return found
 
 
+def offsets(figure):
+    """What is taken from the numbers beside axes without a word in their labels."""
+    return [
+        text for ax in _axes(figure) for axis in ax._axis_map.values() if (text := axis.offsetText.get_text())
+    ]
+
+
 def _common(a, b):
     """The smaller side of what two boxes have in common; below zero where they are apart."""
     return min(min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0))

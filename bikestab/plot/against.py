@@ -12,23 +12,21 @@ from matplotlib.patches import Patch
 
 from bikestab.against import Against, Curve
 from bikestab.modenames import OSCILLATING
-from bikestab.plot.axes import ticks_inside
+from bikestab.plot.axes import label_of, ticks_inside
 from bikestab.plot.growth import plain_ticks
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.modes import BAND, DASHES, STYLES
 from bikestab.plot.settings import own_settings
-
-_WORDS = {"lam": "tilt λ", "sigma": "σ", "delta": "damping δ"}
+from bikestab.variants import Parameter
 
 
 @own_settings()
-def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
-    """A machine by name, at a speed [m/s]; ``unit`` is that of the parameter. Head angles are in degrees."""
-    scale = 1.0
-    words = _WORDS.get(found.name, found.name.replace("_", " "))
+def draw_against(name: str, found: Against, V: float, parameter: Parameter) -> Figure:
+    """A machine by name, at a speed [m/s], and what varies. Head angles are in degrees."""
+    scale, label = 1.0, label_of(parameter)
     if found.name == "head_angle":
-        scale, unit = math.degrees(1), "°"
+        scale, label = math.degrees(1), "head angle [°]"
     figure = Figure(figsize=(5.6, 4.4), layout="constrained")
     ax = figure.add_subplot()
     for curve in _joined(found.curves):
@@ -48,7 +46,7 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
                 ax.axvline(end, color="0.3", lw=0.9, ls=":", zorder=1)
     ax.set_yscale("asinh", linear_width=1.0)
     plain_ticks(ax)
-    ax.set_xlabel(f"{words} [{unit}]")
+    ax.set_xlabel(label)
     ax.set_ylabel("eigenvalue [s⁻¹]  (logarithmic beyond ±1)")
     ticks_inside(ax)
     handles: list[Artist] = [
@@ -59,8 +57,9 @@ def draw_against(name: str, found: Against, V: float, unit: str) -> Figure:
     if stable:
         handles.append(Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="stable"))
     legend_below(figure, handles)
+    what, _, unit = label.removesuffix("]").partition(" [")
     ends = ", ".join(f"{start:.6g} to {stop:.6g}" for start, stop in stable)
-    where = f"stable for {words} = {ends} {unit}".replace(" °", "°") if ends else "nowhere stable"
+    where = f"stable for {what} = {ends} {unit}".replace(" °", "°").strip() if ends else "nowhere stable"
     set_title(ax, f"{short(name)}: eigenvalues at {V:g} m/s", where)
     return figure
 

@@ -12,6 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 
+from bikestab.plot.ticks import plain_numbers
+
 _EM = 10 / 72  # inches
 _NARROW, _WIDE, _DIGIT = 0.318, 0.838, 0.636  # em: the letters of DejaVu Sans
 _LETTERS = {".": _NARROW, "−": _WIDE, "-": 0.361, "×": _WIDE, "+": _WIDE}
@@ -37,6 +39,7 @@ def arrange_plane(figure: Figure, ax: Axes, bar: Axes | None, rows: int, above: 
 
     ``above`` is the height [inches] of what is between the axes and their title.
     """
+    plain_numbers(figure)
     width, height = figure.get_size_inches()
     x0 = _EDGE + _BESIDE + _numbers(ax.yaxis)
     y0 = _legend(rows) + _UNDER
@@ -48,7 +51,6 @@ def arrange_plane(figure: Figure, ax: Axes, bar: Axes | None, rows: int, above: 
         bar.set_position((x1 / width, y0 / height, _BAR / width, (y1 - y0) / height))
     second = [child for child in ax.child_axes if child.get_ylabel()]
     for child in second:
-        child.apply_aspect()  # which gives a second axis its limits
         x1 -= _BESIDE + _numbers(child.yaxis)
     x1 -= _TO_BAR if bar or not second else 0.0
     ax.set_position((x0 / width, y0 / height, (x1 - x0) / width, (y1 - y0) / height))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from typing import Any
 
@@ -13,23 +14,41 @@ from matplotlib.ticker import MaxNLocator
 from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import Model
+from bikestab.variants import Parameter
 
-LABELS = {"lam": "steering-axis tilt λ [rad]", "sigma": "trail / wheelbase σ", "V": "speed V [m/s]"}
+LABELS = {
+    "lam": "steering-axis tilt λ [rad]", "sigma": "trail / wheelbase σ", "V": "speed V [m/s]",
+    "head_angle": "head angle [rad]", "trail": "trail [m]", "offset": "fork offset b [m]",
+}  # fmt: skip
+_SHORTER = (
+    (" of the rear part with rider", " of the rear part"), (" ahead of the rear contact", ""),
+    (" above the ground", ""), (" about a diameter", ""),
+    ("fork and handlebar", "fork"), ("steer torque against the ", "gain on "),
+    ("viscous damping of the steering", "steering damping"),
+)  # fmt: skip
 SYMBOLS = {"lam": "λ", "sigma": "σ", "V": "V"}
 _STEPS = [1, 2, 2.5, 5, 10]
 _TICKS = 6  # spaces between the numbers below an axis, at most
-_LONG = 30  # letters of a parameter's meaning, with which it fits beside an axis
+_LONG = 32  # letters of a parameter's meaning, with which it fits beside an axis
 _WHEELBASES = {"w", "c"}  # with which a trail is no fixed multiple of σ
 HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
 
 
+def label_of(parameter: Parameter) -> str:
+    """What stands beside an axis of a parameter, in every picture."""
+    name, symbol, meaning, unit = parameter
+    if name in LABELS:
+        return LABELS[name]
+    meaning = re.split("[,;]", meaning)[0]
+    for long, short in _SHORTER:
+        meaning = meaning.replace(long, short)
+    words = f"{meaning} {symbol}" if len(meaning) < _LONG and not meaning.startswith("k_") else symbol
+    return f"{words} [{unit}]".removesuffix(" [1]")
+
+
 def labels_of(family: Family) -> dict[str, str]:
     """What stands beside the axes of a family and V."""
-    named = {}
-    for p in family.parameters:
-        meaning = p.meaning.partition(",")[0].replace("steer torque against the ", "gain on ")
-        named[p.name] = f"{meaning if len(meaning) < _LONG else ''} {p.symbol} [{p.unit}]".strip()
-    return {**named, **{name: text for name, text in LABELS.items() if name in {*named, "V"}}}
+    return {"V": LABELS["V"], **{p.name: label_of(p) for p in family.parameters}}
 
 
 def label_family(ax: Axes, x: str, y: str, family: Family, *, one_wheelbase: bool = True) -> None:
@@ -37,7 +56,7 @@ def label_family(ax: Axes, x: str, y: str, family: Family, *, one_wheelbase: boo
 
     Without the trail in m where what is drawn has not ``one_wheelbase``.
     """
-    if {x, y} <= LABELS.keys() and not _WHEELBASES & {family.x, family.y}:
+    if {x, y} <= SYMBOLS.keys() and not _WHEELBASES & {family.x, family.y}:
         label_axes(ax, x, y, family.bicycle.c if one_wheelbase else None)
         return
     labels = labels_of(family)

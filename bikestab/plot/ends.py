@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from bikestab.plot.axes import ticks_inside
+from bikestab.plot.axes import LABELS, ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
@@ -19,8 +19,8 @@ from bikestab.plot.sidelabels import Line, label_right, lines_for
 Run = list[tuple[Mapping[str, Any], Mapping[str, Any]]]  # answers, each with one of its intervals
 Answers = Sequence[Mapping[str, Any]]  # as region.answers gives them: one for each design
 AXES = {
-    "lam": "tilt of the steering axis λ [rad]", "sigma": "trail divided by the wheelbase σ",
-    "head_angle_deg": "head angle [°]", "trail": "trail [m]", "offset": "fork offset b [m]",
+    "lam": LABELS["lam"], "sigma": LABELS["sigma"], "trail": LABELS["trail"], "offset": LABELS["offset"],
+    "head_angle_deg": "head angle [°]",
 }  # fmt: skip
 _BEYOND = 1.25  # where what is unbounded ends in the picture, of the largest end
 
@@ -84,7 +84,7 @@ def _over(
     values = [answer[axis] for _, answers in machines for answer in answers]
     ax.set_xlim(min(values), max(values))
     ax.set_ylim(0, top)
-    ax.set_ylabel("speed V [m/s]")
+    ax.set_ylabel(LABELS["V"])
     if len(machines) == 1:
         return  # its name is the title's
     names = [name if x == x else f"{name}: never" for (name, _), (x, _) in zip(machines, last, strict=True)]
@@ -137,7 +137,7 @@ def _bars(ax: Axes, machines: Sequence[tuple[str, Answers]], lines: Sequence[Lin
     ax.set_yticks(range(len(machines)), [short(name) for name, _ in machines], parse_math=False)
     ax.set_ylim(len(machines) - 0.5, -0.7)
     ax.set_xlim(0, top)
-    ax.set_xlabel("speed V [m/s]")
+    ax.set_xlabel(LABELS["V"])
 
 
 def _nine_tenths(

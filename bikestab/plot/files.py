@@ -16,6 +16,7 @@ from bikestab.errors import InputError, nearest
 from bikestab.files import PICTURES, written
 from bikestab.plot.png import png
 from bikestab.plot.settings import own_settings
+from bikestab.plot.ticks import plain_numbers
 
 DPI = 210
 _UNITS = {
@@ -42,6 +43,7 @@ def save(figure: Figure, path: Path) -> None:
 @own_settings()
 def drawn(figure: Figure, ending: str = "png") -> bytes:
     """The picture as a file's content; some formats end in errors of their own where a disk is full."""
+    plain_numbers(figure)
     if (
         ending == "png"
     ):  # matplotlib's own draws every figure twice, and takes longer to compress it than to draw

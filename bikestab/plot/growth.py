@@ -12,7 +12,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import Model, exact_table
-from bikestab.plot.axes import ticks_inside
+from bikestab.plot.axes import LABELS, ticks_inside
 from bikestab.plot.headings import set_title
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import label_right, lines_for
@@ -59,7 +59,7 @@ def growth_axes(ax: Axes, machines: Sequence[Curve], start: float, stop: float) 
     ax.set_yscale("asinh", linear_width=_LINEAR)
     ax.set_ylim(1.15 * min(low, -0.1), 1.1 * max(high, 0.1))
     plain_ticks(ax)
-    ax.set_xlabel("speed V [m/s]")
+    ax.set_xlabel(LABELS["V"])
     ax.set_ylabel(f"growth rate [s⁻¹]  (scale logarithmic beyond ±{_LINEAR:g})")
     ticks_inside(ax)
     label_right(ax, [name for name, *_ in machines], [stop] * len(ends), ends, [line.color for line in lines])

@@ -17,7 +17,7 @@ from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.modenames import OSCILLATING
 from bikestab.modes import Modes, follow
 from bikestab.plot.arranged import arrange_plane
-from bikestab.plot.axes import HALO, head_angle, remarks, ticks_inside
+from bikestab.plot.axes import HALO, LABELS, head_angle, remarks, ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import legend_below
 from bikestab.plot.settings import own_settings
@@ -86,7 +86,7 @@ def draw_modes(
         *([Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="stable")] if edges else []),
     ]
     entries = legend_below(figure, handles, handlelength=2.6)
-    ax.set_xlabel("speed V [m/s]")
+    ax.set_xlabel(LABELS["V"])
     ticks_inside(ax)
     title = (
         f"{short(bicycle.name)}: λ = {lam:.6g} rad (head angle {head_angle(lam):.2f}°), "

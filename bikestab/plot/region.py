@@ -41,6 +41,7 @@ _LONG = 28  # letters of a label, with which it fits beside an axis
 _LIGHT = np.array([-0.45, -0.6, 0.66])  # direction to the light, in units of the box
 _SIZE = 9  # of words beside axes
 _SCALE = (1.0, 1.0, 0.85)  # of the drawn box
+_NAMES = tuple(LABELS[name] for name in AXES)
 
 
 class _Quick(Family):
@@ -83,7 +84,7 @@ def draw_region(subject: Subject) -> Figure:
 
 
 def draw_mesh(
-    ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]], labels: Sequence[str] = (*LABELS.values(),)
+    ax: Axes3D, mesh: Mesh, box: Sequence[tuple[float, float]], labels: Sequence[str] = _NAMES
 ) -> list[Patch | Line2D]:
     """The surface in axes that show the box λ [rad] × σ × V [m/s]; words where there is none.
 

@@ -185,7 +185,7 @@ def _against(machine: Chosen, given: Given, view: View, model: Model) -> Shown:
     with _told(**{name: "--over"}):
         others = {key: value[0] if isinstance(value, list) else value for key, value in given.items()}
         found = modes_against(machine.bicycle, name, values, view.at, others, model=model)
-    unit = parameter_of(machine.bicycle, name).unit
+    parameter = parameter_of(machine.bicycle, name)
     records = []
     for value, design, table, modes in zip(
         found.values.tolist(), found.designs, found.tables, found.modes, strict=True
@@ -197,9 +197,9 @@ def _against(machine: Chosen, given: Given, view: View, model: Model) -> Shown:
     def draw() -> Any:
         from bikestab.plot.against import draw_against
 
-        return draw_against(machine.words, found, float(view.at or 0), unit)
+        return draw_against(machine.words, found, float(view.at or 0), parameter)
 
-    text = told_against(machine, found, view.at, unit, model)
+    text = told_against(machine, found, view.at, parameter.unit, model)
     ranges = [{"at": view.at, "start": {name: start}, "stop": {name: stop}} for start, stop in found.stable]
     return Shown(
         {"all": records, "ranges": ranges}, text, against_columns(found), lambda: against_blocks(found), draw

@@ -82,6 +82,7 @@ def _draw(
     over: Mapping[str, list[float]], output: str,
 ) -> None:  # fmt: skip
     """Over the parameter with the most values, a curve for each value of the other one."""
+    from bikestab.plot.axes import label_of
     from bikestab.plot.ends import AXES, draw_ends
     from bikestab.plot.files import save
     from bikestab.variants import parameter_of
@@ -97,7 +98,6 @@ def _draw(
             whose = [machine.words] if len(machines) > 1 or not values else []
             own = {} if axis in AXES else {along: point[along]}
             curves.setdefault(", ".join([*whose, *values]), []).append({**answer, **own})
-    p = parameter_of(machines[0].bicycle, along)
-    label = "" if axis in AXES else f"{p.meaning} {p.name} [{p.unit}]"
+    label = "" if axis in AXES else label_of(parameter_of(machines[0].bicycle, along))
     name = machines[0].words if len(machines) == 1 else ""
     save(draw_ends(list(curves.items()), axis, label, name), Path(output))

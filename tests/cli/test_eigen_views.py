@@ -14,6 +14,7 @@ from bikestab.motion import motion, shapes
 from bikestab.plot.against import draw_against
 from bikestab.plot.locus import draw_locus
 from bikestab.plot.shapes import draw_shapes
+from bikestab.variants import parameter_of
 
 BENCHMARK = ("--bicycle", "meijaard2007")
 BIKE = bs.Bicycle.preset("meijaard2007")
@@ -204,7 +205,7 @@ def test_the_heading_is_silent_of_a_damping_that_varies(bikestab):
 
 def test_a_head_angle_is_drawn_in_degrees():
     found = modes_against(BIKE, "head_angle", [math.radians(68), math.radians(74)], 5.0)
-    (ax,) = draw_against("own", found, 5.0, "rad").axes
+    (ax,) = draw_against("own", found, 5.0, parameter_of(BIKE, "head_angle")).axes
     assert ax.get_xlabel() == "head angle [°]"
     assert ax.get_xlim() == pytest.approx((68, 74))
 
@@ -219,6 +220,6 @@ def test_a_motion_that_a_linear_model_cannot_tell(bikestab):
 def test_curves_are_drawn_in_one_piece_however_many_values_there_are():
     """Dashes that begin anew at each value make a solid line."""
     found = modes_against(bs.Bicycle.preset("meijaard2007"), "delta", np.linspace(0, 5, 101), 4.0)
-    (ax,) = draw_against("meijaard2007", found, 4.0, "kg m²/s").axes
+    (ax,) = draw_against("meijaard2007", found, 4.0, parameter_of(BIKE, "delta")).axes
     spans = [line.get_xdata() for line in ax.lines if len(line.get_xdata()) > 2]
     assert [(x[0], x[-1]) for x in spans] == [(0.0, 5.0)] * 4  # weave twice, capsize and castering

@@ -4,7 +4,8 @@ import pytest
 
 from bikestab.design import best, search
 from bikestab.plot import files
-from tests.words import faults
+from bikestab.plot.ticks import plain_numbers
+from tests.words import faults, offsets
 
 PAPER = "--lam 0.2 --sigma 0.08"
 ALL = "--bicycle meijaard2007 --bicycle sharp1971 --bicycle kooijman2011"
@@ -35,6 +36,7 @@ COMMANDS = [
     "design --bicycle sharp1971",
     "design --stable 4:6 --V 4:6",
     "design --lam 0.1:0.1001 --sigma 0.08:0.0801",
+    "design --lam 0.2:0.2000000001 --sigma 0.08:0.0800001",
     "design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5",
     "design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm",
     f"design {ALL}",
@@ -57,7 +59,12 @@ COMMANDS = [
 def figures(monkeypatch):
     """The figures that commands draw, instead of their files."""
     drawn = []
-    monkeypatch.setattr(files, "save", lambda figure, path: drawn.append(figure))
+
+    def save(figure, path):
+        plain_numbers(figure)
+        drawn.append(figure)
+
+    monkeypatch.setattr(files, "save", save)
     return drawn
 
 
@@ -82,6 +89,7 @@ def test_words_stand_apart(bikestab, figures, command):
     code, _, err = bikestab(*command.split(), "-o", "a.png")
     assert code == 0, err
     assert faults(figures[0]) == []
+    assert offsets(figures[0]) == []
 
 
 def test_designs_in_one_place_have_one_mark(bikestab, figures):
