@@ -23,14 +23,16 @@ def design_of(bicycle: Bicycle, lam: Given, sigma: Given) -> tuple[Floats, Float
 
     Raises InputError, with the key ``lam`` or ``sigma``, where there is none, or one that cannot be used.
     """
-    found = []
-    for name, given, own in (("lam", lam, bicycle.lam), ("sigma", sigma, bicycle.sigma)):
-        value = own if given is None else given
-        if value is None:
-            problem = f"the bicycle {bicycle.name!r} has no {name} of its own"
-            raise InputError(problem, key=(name,), hint=f"give one, for example {_EXAMPLE[name]}")
-        found.append(_checked(name, value))
-    return found[0], found[1]
+    chosen = {
+        "lam": bicycle.lam if lam is None else lam, "sigma": bicycle.sigma if sigma is None else sigma
+    }  # fmt: skip
+    if missing := [name for name, value in chosen.items() if value is None]:
+        problem = f"the bicycle {bicycle.name!r} has no {' and no '.join(missing)} of its own"
+        examples = [f"{name}={_EXAMPLE[name]}" for name in missing]
+        hint = f"give {'one' if len(missing) == 1 else 'both'}, for example {' '.join(examples)}"
+        raise InputError(problem, key=missing[:1], hint=hint)
+    tilt, trail = (_checked(name, value) for name, value in chosen.items() if value is not None)
+    return tilt, trail
 
 
 def table_and_speeds(

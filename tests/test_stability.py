@@ -117,8 +117,8 @@ def test_modes_are_the_eigenvalues():
 @pytest.mark.parametrize(
     ("call", "key", "words"),
     [
-        (lambda: bs.stable_intervals(DIKAREV), "lam", "no lam of its own"),
-        (lambda: bs.stable_intervals(DIKAREV, 0.2), "sigma", "give one, for example 0.08"),
+        (lambda: bs.stable_intervals(DIKAREV), "lam", "no lam and no sigma of its own"),
+        (lambda: bs.stable_intervals(DIKAREV, 0.2), "sigma", "give one, for example sigma=0.08"),
         (lambda: bs.stable_intervals("meijaard2007"), "bicycle", "Bicycle.load"),
         (lambda: bs.stable_intervals(MEIJAARD, [0.1, 2.0]), "lam", "tilted by 2 rad"),
         (lambda: bs.stable_intervals(MEIJAARD, [0.1, np.nan]), "lam", "nan"),

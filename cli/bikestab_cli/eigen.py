@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.chosen import Given, design_chosen, design_options
-from bikestab_cli.eigen_views import View, view_options
+from bikestab_cli.chosen import Given, design_options
+from bikestab_cli.designless import end_of_all, lacking, results_of_all
+from bikestab_cli.eigen_along import along
+from bikestab_cli.eigen_view_options import View, view_options
+from bikestab_cli.eigen_views import viewed
 from bikestab_cli.options import (
     FILE,
     PICTURE,
     SPEEDS,
     check_files,
     json_option,
-    told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
-from bikestab_cli.several import Chosen, Values, check_varied, machines_chosen, record_of, several_machines
+from bikestab_cli.several import Values, check_varied, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
-    from bikestab_cli.eigen_words import Followed
-
     from bikestab.model import Model
 
 
@@ -95,12 +95,7 @@ def command(
       bikestab eigen --bicycle meijaard2007 --over delta=0:5:11 --at 4
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
-    from bikestab_cli.eigen_words import told, told_all
-
-    if output and min(speeds) == max(speeds) and not view.kind:
-        raise click.BadParameter("a picture needs a range, for example 0:10:21", param_hint="--V")
-    if locus and (not output or view.kind):
-        raise click.BadParameter("it is a picture of its own: give -o FILE", param_hint="--locus")
+    _check_picture(view, speeds, locus, output)
     check_files(csv_file, output)
     machines = machines_chosen(bicycle_name, delta, changes, given)
     for machine in machines:
@@ -109,92 +104,34 @@ def command(
         raise click.BadParameter(
             "this picture is of one machine", param_hint="--locus" if locus else "--output"
         )
-    files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
-    ranges = None
+    lacks = lacking(machines, [*given, *view.over])
     if view.kind:
-        text, results, ranges = _viewed(machines, given, view, model, csv_file, output)
+        answer = viewed(machines, lacks, given, view, model)
     else:
-        found = [_followed(machine, given, speeds, model) for machine in machines]
-        if csv_file:
-            _save(found, csv_file)
-        if output:
-            _draw(found, min(speeds), max(speeds), model, locus, output)
-        text = told(found[0], model) if len(found) == 1 else told_all(found, model)
-        results = [[_result(each)] for each in found]
-    if as_json:
-        print_json(record_of(machines, model, results, files, ranges))
-        return
-    for name in files.values():
-        tell_file(name)
-    if not files:
-        click.echo(text)
-
-
-def _viewed(
-    machines: list[Chosen], given: Given, view: View, model: Model, csv_file: str | None, output: str | None
-) -> tuple[str, list[list[dict[str, Any]]], list[list[dict[str, Any]]] | None]:
-    """What is shown at one speed: text, and results and ranges of each machine; its files are written."""
-    from bikestab_cli.eigen_views import save_picture, shown
-
-    found = [shown(machine, given, view, model) for machine in machines]
+        answer = along(machines, lacks, given, speeds, model, locus=locus)
     if csv_file:
-        from bikestab.export.tables import of_machines, save_csv
+        from bikestab.export.tables import save_csv
 
-        blocks = [
-            (machine.bicycle.name, machine.changes, each.blocks())
-            for machine, each in zip(machines, found, strict=True)
-        ]
-        save_csv(*of_machines(found[0].columns, blocks), csv_file)
+        save_csv(*answer.rows(), csv_file)
     if output:
-        save_picture(found, output)
-    results = [each.record.get("all", [each.record]) for each in found]
-    ranges = [each.record["ranges"] for each in found] if view.kind == "over" else None
-    return "\n\n\n".join(each.text for each in found), results, ranges
+        from bikestab.plot.files import save
 
-
-def _followed(machine: Chosen, given: Given, speeds: list[float], model: Model) -> Followed:
-    from bikestab_cli.eigen_words import Followed
-
-    from bikestab.records import design_record, interval_records, verdict_record
-    from bikestab.stability import modes, stable_intervals
-
-    bicycle = machine.bicycle
-    lam, sigma = design_chosen(bicycle, given)
-    with told_as_options():
-        found = modes(bicycle, speeds, lam, sigma, model=model)
-    stable = stable_intervals(bicycle, lam, sigma, model=model)
-    design = design_record(lam, sigma, bicycle)
-    return Followed(machine, design, interval_records(stable), verdict_record(stable), found)
-
-
-def _result(found: Followed) -> dict[str, Any]:
-    from bikestab.records import modes_record
-
-    return {**found.design, "intervals": found.intervals, **found.verdict, **modes_record(found.modes)}
-
-
-def _save(found: list[Followed], name: str) -> None:
-    from bikestab.export.tables import MODES, modes_blocks, of_machines, save_csv
-
-    blocks = [(each.machine.bicycle.name, each.machine.changes, modes_blocks(each.modes)) for each in found]
-    save_csv(*of_machines(MODES, blocks), name)
-
-
-def _draw(found: list[Followed], start: float, stop: float, model: Model, locus: bool, name: str) -> None:
-    from bikestab.plot.files import save
-
-    designs = [(each.machine.bicycle, each.design["lam"], each.design["sigma"]) for each in found]
-    if locus:
-        from bikestab.plot.locus import draw_locus
-
-        figure = draw_locus(*designs[0], start, stop, model=model)
-    elif len(found) == 1:
-        from bikestab.plot.modes import draw_modes
-
-        figure = draw_modes(*designs[0], start, stop, model=model)
+        save(answer.draw(), Path(output))
+    files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
+    if as_json:
+        results = results_of_all(machines, lacks, answer.results)
+        print_json(record_of(machines, model, results, files, answer.ranges))
     else:
-        from bikestab.plot.growth import draw_growth
+        for name in files.values():
+            tell_file(name)
+        if not files:
+            click.echo(answer.text)
+    end_of_all(machines, lacks)
 
-        named = [(each.machine.words, *design, model) for each, design in zip(found, designs, strict=True)]
-        figure = draw_growth(named, start, stop)
-    save(figure, Path(name))
+
+def _check_picture(view: View, speeds: list[float], locus: bool, output: str | None) -> None:
+    """Refuse pictures that cannot be drawn."""
+    if output and min(speeds) == max(speeds) and not view.kind:
+        raise click.BadParameter("a picture needs a range, for example 0:10:21", param_hint="--V")
+    if locus and (not output or view.kind):
+        raise click.BadParameter("it is a picture of its own: give -o FILE", param_hint="--locus")

@@ -13,6 +13,7 @@ from bikestab_cli.shapes import (
     named,
     num,
     of_machines,
+    or_problems,
     record,
     some,
     words,
@@ -66,4 +67,4 @@ _EIGEN = of_machines(
     V=some(NUMBERS, "speeds [m/s]"), branches=_BRANCHES, at=num("the speed [m/s]"), shapes=_SHAPES,
     push=_PUSH, motion=_MOTION,
 )  # fmt: skip
-EIGEN = {**_EIGEN, "properties": {**_EIGEN["properties"], "ranges": _RANGES}}
+EIGEN = or_problems({**_EIGEN, "properties": {**_EIGEN["properties"], "ranges": _RANGES}})

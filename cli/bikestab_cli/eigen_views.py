@@ -2,40 +2,22 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 from bikestab_cli.chosen import Given, design_chosen
+from bikestab_cli.designless import told_without, with_design
+from bikestab_cli.eigen_along import Answer
+from bikestab_cli.eigen_view_options import View
 from bikestab_cli.eigen_view_words import told_against, told_motion, told_shapes
-from bikestab_cli.options import SPEED_VALUE, Quantity, over_option
 from bikestab_cli.several import Chosen
-
-from bikestab.errors import InputError
-from bikestab.units import ANGLE, RATE, TIME, quantity
 
 if TYPE_CHECKING:
     from bikestab.model import Model
 
 _TIMES = 501  # of a motion
-
-
-class View(NamedTuple):
-    """What is asked for at one speed, and at which; the middle of the widest stable interval for None."""
-
-    shapes: bool
-    push: dict[str, float]
-    over: dict[str, list[float]]
-    at: float | None
-    until: float
-
-    @property
-    def kind(self) -> str:
-        """Which of them, if one."""
-        return "shapes" if self.shapes else "push" if self.push else "over" if self.over else ""
 
 
 class Shown(NamedTuple):
@@ -48,72 +30,32 @@ class Shown(NamedTuple):
     draw: Callable[[], Any]
 
 
-def _pushed(_: click.Context, option: click.Parameter, text: str | None) -> dict[str, float]:
-    units = {"roll": ANGLE, "steer": ANGLE, "roll_rate": RATE, "steer_rate": RATE}
-    values: dict[str, float] = {}
-    for part in text.split(",") if text else ():
-        name, equals, number = part.partition("=")
-        name = name.strip()
-        if not equals or name not in units:
-            problem = f"{part!r} is not STATE=VALUE, with one of {', '.join(units)}"
-            raise click.BadParameter(problem, param=option)
-        if name in values:
-            raise click.BadParameter(f"{name} is given twice", param=option)
-        try:
-            values[name] = quantity(number, units[name])
-        except InputError as error:
-            raise click.BadParameter(f"{part!r}: {error.problem}; {error.hint}", param=option) from None
-    return values
+def viewed(
+    machines: Sequence[Chosen], lacks: Sequence[str], given: Given, view: View, model: Model
+) -> Answer:
+    """What is shown at one speed of the machines that do not lack a design."""
+    able = with_design(machines, lacks)
+    found = [_shown(machine, given, view, model) for machine in able]
+
+    def rows() -> tuple[Any, Any]:
+        from bikestab.export.tables import of_machines
+
+        blocks = [
+            (machine.bicycle.name, machine.changes, each.blocks())
+            for machine, each in zip(able, found, strict=True)
+        ]
+        return of_machines(found[0].columns, blocks)
+
+    text = "\n\n\n".join([*(each.text for each in found), *told_without(machines, lacks)])
+    results = [each.record.get("all", [each.record]) for each in found]
+    ranges = None
+    if view.kind == "over":
+        each_ = iter(found)
+        ranges = [[] if lack else next(each_).record["ranges"] for lack in lacks]
+    return Answer(text, results, rows, lambda: found[0].draw(), ranges)
 
 
-def view_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """--shapes, --push, --over, --at and --until, as one argument ``view``."""
-
-    @functools.wraps(function)
-    def command(**arguments: Any) -> Any:
-        view = View(*(arguments.pop(name) for name in View._fields))
-        if sum(map(bool, (view.shapes, view.push, view.over))) > 1 or len(view.over) > 1:
-            problem = "give one of --shapes, --push and --over, and this once"
-            raise click.UsageError(problem, click.get_current_context())
-        _check_used(view)
-        if not view.until > 0:
-            raise click.BadParameter("allowed: above 0", param_hint="--until")
-        return function(view=view, **arguments)
-
-    options = (
-        click.option("--shapes", is_flag=True, help="Show how roll and steer take part in each mode."),
-        click.option(
-            "--push", metavar="STATE=VALUE,...", callback=_pushed,
-            help="Show the motion after a push: 'roll_rate=0.5', of roll, steer, roll_rate, steer_rate.",
-        ),
-        over_option,
-        click.option(
-            "--at", type=SPEED_VALUE, metavar="SPEED",
-            help="Speed of --shapes, --push and --over.  [default: the middle of the stable speeds]",
-        ),
-        click.option(
-            "--until", type=Quantity("time", TIME), metavar="TIME", default="5", show_default=True,
-            help="How long --push goes on [s].",
-        ),
-    )  # fmt: skip
-    for option in reversed(options):
-        command = option(command)
-    return command
-
-
-def _check_used(view: View) -> None:
-    """Refuse options that are typed and say nothing of what is asked for."""
-    context = click.get_current_context()
-    for name, option, used, what in (
-        ("at", "--at", view.kind, "--shapes, --push and --over; the table's speeds are --V"),
-        ("until", "--until", view.kind == "push", "--push"),
-        ("speeds", "--V", not view.kind, "the table along the speed; give --at"),
-    ):
-        if not used and context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT:
-            raise click.UsageError(f"{option} is for {what}", context)
-
-
-def shown(machine: Chosen, given: Given, view: View, model: Model) -> Shown:
+def _shown(machine: Chosen, given: Given, view: View, model: Model) -> Shown:
     """What is asked for, of one machine."""
     if view.kind == "over":
         return _against(machine, given, view, model)
@@ -232,10 +174,3 @@ def _told(**others: str) -> Iterator[None]:
         if error.param_hint == "--t":
             error.param_hint = "--until"
         raise
-
-
-def save_picture(found: list[Shown], output: str) -> None:
-    """Draw the one machine there is."""
-    from bikestab.plot.files import save
-
-    save(found[0].draw(), Path(output))

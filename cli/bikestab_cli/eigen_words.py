@@ -41,10 +41,10 @@ def told(found: Followed, model: Model) -> str:
     return prose("\n".join(lines))
 
 
-def told_all(found: Sequence[Followed], model: Model) -> str:
-    """The same of several machines in one table of designs and one of eigenvalues."""
+def told_all(found: Sequence[Followed], model: Model, left_out: Sequence[str]) -> str:
+    """The same of several machines in one table of designs and one of eigenvalues, and who is left out."""
     designs = [[each.machine.stacked, *design_columns(each.design)] for each in found]
-    notes = [f"{each.machine.words}: {'; '.join(_stable(each))}" for each in found]
+    notes = [*(f"{each.machine.words}: {'; '.join(_stable(each))}" for each in found), *left_out]
 
     def eigenvalues(digits: int) -> str:
         rows = []

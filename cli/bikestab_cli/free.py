@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.design_words import VANISHES
+from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
 from bikestab_cli.options import Ends, check_files, told_as_options
 from bikestab_cli.output import heading, print_json, prose, table, tell_file, within
 from bikestab_cli.several import Chosen, record_of
@@ -48,7 +49,9 @@ def tell_free(
     of_file, given = deviations
     named = dict.fromkeys(ends, "--free")
     results, told, bests = [], [], []
-    for machine in machines:
+    lacks = lacking(machines, ends)
+    able = with_design(machines, lacks)
+    for machine in able:
         known = {name: sd for name, sd in machine.bicycle.deviations.items() if sd > 0} if of_file else {}
         with told_as_options(judged="--V", V_max="--V-max", **named):
             free = Free(machine.bicycle, ends, model, V_max, judged, stable)
@@ -58,11 +61,12 @@ def tell_free(
         told.append(told_free(free, best, machine.changes))
         bests.append(best)
     if not as_json:
+        told += told_without(machines, lacks)
         click.echo("\n\n".join(told), err=any(to_stdout(name) for name in (csv_file, output) if name))
     if csv_file:
         blocks = [
             (machine.bicycle.name, machine.changes, optima_blocks(best))
-            for machine, best in zip(machines, bests, strict=True)
+            for machine, best in zip(able, bests, strict=True)
         ]
         save_csv(*of_machines(optima_columns(free), blocks), csv_file)
     if output:
@@ -72,10 +76,11 @@ def tell_free(
         save(draw_free(free, bests[0]), Path(output))
     files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if as_json:
-        print_json(record_of(machines, model, results, files))
+        print_json(record_of(machines, model, results_of_all(machines, lacks, results), files))
     else:
         for name in files.values():
             tell_file(name)
+    end_of_all(machines, lacks)
 
 
 def told_free(free: Free, best: FreeBest, changes: str) -> str:

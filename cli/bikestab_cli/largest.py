@@ -7,6 +7,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import TYPE_CHECKING, Any
 
 import click
+from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
 from bikestab_cli.options import Ends, told_as_options
 from bikestab_cli.output import heading, print_json, prose, tell_file
 from bikestab_cli.several import Chosen, record_of
@@ -49,8 +50,9 @@ def tell_largest(
 
     if certificate and len(machines) > 1:
         raise click.UsageError("--certificate is of one machine", click.get_current_context())
+    lacks = lacking(machines, _given())
     results, told = [], []
-    for machine in machines:
+    for machine in with_design(machines, lacks):
         with told_as_options(stable="--stable", judged="--V", sd="--sd"):
             around = _around(machine.bicycle, deviations, model, speeds)
             found = largest_box(around)
@@ -63,11 +65,17 @@ def tell_largest(
                 part.write_text(found.proof.certificate(__version__) + "\n", encoding="utf-8")
     files = {"certificate": certificate} if certificate else {}
     if as_json:
-        print_json(record_of(machines, model, results, files))
-        return
-    click.echo("\n\n".join(told))
-    if certificate:
-        tell_file(certificate)
+        print_json(record_of(machines, model, results_of_all(machines, lacks, results), files))
+    else:
+        click.echo("\n\n".join([*told, *told_without(machines, lacks)]))
+        if certificate:
+            tell_file(certificate)
+    end_of_all(machines, lacks)
+
+
+def _given() -> list[str]:
+    """Which of the design was typed."""
+    return [name for name in _DESIGN if _typed(name)]
 
 
 def _typed(name: str) -> bool:
@@ -79,15 +87,13 @@ def _around(
     bicycle: Bicycle, deviations: tuple[bool, dict[str, float]], model: Model,
     speeds: tuple[float, Ends | None, Ends | None],
 ) -> Around:  # fmt: skip
+    from bikestab.arguments import design_of
     from bikestab.certify.largest import around_design
     from bikestab.geometry import design_given
 
-    given = {name: click.get_current_context().params[name][0] for name in _DESIGN if _typed(name)}
-    lam, sigma = design_given(given, bicycle.c, bicycle.R2, (bicycle.lam, bicycle.sigma))
-    if lam is None or sigma is None:
-        missing = "lam" if lam is None else "sigma"
-        problem = f"the bicycle {bicycle.name!r} has no {missing} of its own"
-        raise InputError(problem, key=(missing,), hint=f"give --{missing}, one value")
+    given = {name: click.get_current_context().params[name][0] for name in _given()}
+    design = design_given(given, bicycle.c, bicycle.R2, (bicycle.lam, bicycle.sigma))
+    lam, sigma = (float(x) for x in design_of(bicycle, *design))
     of_file, typed = deviations
     known = {name: sd for name, sd in bicycle.deviations.items() if sd > 0} if of_file else {}
     if of_file and not known and not typed:
@@ -97,9 +103,7 @@ def _around(
     if judged and judged[0] != judged[1]:
         raise InputError("is one speed of the box", key=("judged",), hint="a range is --stable")
     V = judged[0] if judged else None
-    return around_design(
-        bicycle, model, (float(lam), float(sigma)), {**known, **typed} or _SIDES, stable, V, V_max
-    )
+    return around_design(bicycle, model, (lam, sigma), {**known, **typed} or _SIDES, stable, V, V_max)
 
 
 def _result(found: Largest, speeds: tuple[float, Ends | None, Ends | None]) -> dict[str, Any]:

@@ -229,16 +229,16 @@ def told_as_options(**others: str) -> Iterator[None]:
         if error.place or not error.key:
             raise
         name, hint = str(error.key[0]), error.hint
-        option = others.get(name, f"--{name.replace('_', '-')}")
-        if hint.startswith("give one, for example "):
-            example = hint.rpartition(" ")[2]
-            problem = f"{error.problem}: give {option}, for example {option} {example}"
+        if examples := re.findall(r"(?<= )(lam|sigma)=(\S+)", hint):
+            typed = [f"--{argument} {value}" for argument, value in examples]
+            options = " and ".join(each.split()[0] for each in typed)
+            problem = f"{error.problem}: give {options}, for example {' '.join(typed)}"
             raise click.UsageError(problem, click.get_current_context()) from None
         listed = hint.startswith("known: ")  # parameters, and no arguments
         for argument, its_option in {} if listed else others.items():
             hint = re.sub(rf"(?<![\w-]){re.escape(argument)}\b", its_option, hint)
-        problem = f"{error.problem}; {hint}" if hint else error.problem
-        raise click.BadParameter(problem, param_hint=option) from None
+        problem, option = f"{error.problem}; {hint}".strip("; "), f"--{name.replace('_', '-')}"
+        raise click.BadParameter(problem, param_hint=others.get(name, option)) from None
 
 
 @contextmanager

@@ -146,31 +146,37 @@ SCHEMAS: dict[str, Schema] = {
         of_machines(
             "a design", ("spread", "over"), over=OVER, **DESIGN, intervals=INTERVALS, **VERDICT,
             nearest=either(_NEAREST, NULL, text="null where there is a stable speed"), spread=_SPREAD,
-        )
+        ),
+        "nearest",
     ),
     "eigen": EIGEN,
-    "design": of_machines(
-        "a machine's search", ("most_robust", "certified"),
-        searched={
-            **record(
-                "what was asked, the ends of --over by parameter", ("lam", "sigma", "trail", "offset"),
-                lam=PAIR, sigma=PAIR, trail=_MAYBE_PAIR, offset=_MAYBE_PAIR,
-                V_max=num("intervals count up to here [m/s]"), judged=_MAYBE_PAIR, stable=_MAYBE_PAIR,
-            ),
-            "additionalProperties": PAIR,
-        },
-        own=_JUDGED, widest=_JUDGED, lowest_V1=_JUDGED, fastest_decay=_JUDGED,
-        pareto=some(_JUDGED, "from the widest to the fastest; empty with --free"), closest=_JUDGED,
-        most_robust=either(_ROBUST, NULL, text="with --free; null without --sd"),
-        certified=LARGEST,
+    "design": or_problems(
+        of_machines(
+            "a machine's search", ("most_robust", "certified"),
+            searched={
+                **record(
+                    "what was asked, the ends of --over by parameter", ("lam", "sigma", "trail", "offset"),
+                    lam=PAIR, sigma=PAIR, trail=_MAYBE_PAIR, offset=_MAYBE_PAIR,
+                    V_max=num("intervals count up to here [m/s]"), judged=_MAYBE_PAIR, stable=_MAYBE_PAIR,
+                ),
+                "additionalProperties": PAIR,
+            },
+            own=_JUDGED, widest=_JUDGED, lowest_V1=_JUDGED, fastest_decay=_JUDGED,
+            pareto=some(_JUDGED, "from the widest to the fastest; empty with --free"), closest=_JUDGED,
+            most_robust=either(_ROBUST, NULL, text="with --free; null without --sd"),
+            certified=LARGEST,
+        )
     ),
-    "sensitivity": of_machines(
-        "a design", **DESIGN, hold={"enum": ["trail", "offset", "sigma"], "description": "what stays"},
-        best=_BEST, sigma_min=_FIRST, tried=some(_TRIED, "computed anew, not by derivatives"),
-        intervals=some(
-            record("an interval", **ENDS, parameters=some(_ROW, "the largest effects first")), "ascending"
-        ),
-        spread=either(_SPREAD, NULL, text="null without standard deviations"),
+    "sensitivity": or_problems(
+        of_machines(
+            "a design", **DESIGN, hold={"enum": ["trail", "offset", "sigma"], "description": "what stays"},
+            best=_BEST, sigma_min=_FIRST, tried=some(_TRIED, "computed anew, not by derivatives"),
+            intervals=some(
+                record("an interval", **ENDS, parameters=some(_ROW, "the largest effects first")),
+                "ascending",
+            ),
+            spread=either(_SPREAD, NULL, text="null without standard deviations"),
+        )
     ),
     "check": answer(
         either(

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.chosen import Given, design_chosen, design_options
-from bikestab_cli.options import (
-    FILE,
-    PICTURE,
-    check_files,
-    json_option,
-    sd_option,
-    tell_once,
-    tell_which,
-    told_as_options,
-)
+from bikestab_cli.chosen import Given, design_options
+from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
+from bikestab_cli.options import FILE, PICTURE, check_files, json_option, sd_option
 from bikestab_cli.output import print_json, prose, tell_file
+from bikestab_cli.sensitivity_found import Found, found_of
 from bikestab_cli.several import Values, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
@@ -89,72 +82,58 @@ def command(
       bikestab sensitivity --bicycle meijaard2007 --set mB=60,85,110
       bikestab sensitivity --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
     """
-    from bikestab_cli.sensitivity_more import MOVED, told_of
-    from bikestab_cli.sensitivity_picture import draw_moved, draw_speeds
-    from bikestab_cli.sensitivity_words import opening, side_by_side, told
-    from bikestab_cli.spread_words import tell_rider, told_spread
-
-    from bikestab.design.effects import sensitivity_record, without_interval
-    from bikestab.design.sensitivity import sensitivity, two_parts
-    from bikestab.design.spread import own_spread, plain
-    from bikestab.export.effects import SENSITIVITY, sensitivity_blocks
-    from bikestab.export.tables import of_machines, save_csv
-    from bikestab.plausible import deviation_doubts
-    from bikestab.region.first_sigma import first_sigma, first_sigma_record
-
     machines = machines_chosen(bicycle_name, delta, changes, given)
-    bicycles = [each.bicycle for each in machines]
     check_files(csv_file, output)
-    if len({bicycle.bodies is None for bicycle in bicycles}) > 1:
-        # c is the trail in one notation, and the wheelbase in the other
-        bicycles = [two_parts(bicycle) for bicycle in bicycles]
-    with told_as_options():
-        found = [
-            sensitivity(bicycle, *design_chosen(bicycle, given), hold=hold, model=model)
-            for bicycle in bicycles
-        ]
-        firsts = [first_sigma(each.bicycle, each.lam, each.sigma, model=model) for each in found]
-    for bicycle in bicycles:
-        tell_which(bicycle, deviations[1])
-        tell_rider(bicycle, {**bicycle.deviations, **deviations[1]})
-        for text in deviation_doubts(bicycle, deviations[1]):
-            tell_once(f"warning: {bicycle.name}: {text}")
-    with told_as_options():
-        spreads = [own_spread(each, of_file=True, given=deviations[1]) for each in found]
-    records = [
-        {**sensitivity_record(each), "sigma_min": first_sigma_record(first), "spread": known and plain(known)}
-        for each, first, known in zip(found, firsts, spreads, strict=True)
-    ]
+    lacks = lacking(machines, given)
+    found = found_of(with_design(machines, lacks), given, hold, model, deviations[1])
     if csv_file:
-        blocks = [
-            (each.bicycle.name, each.changes, sensitivity_blocks(r, without_interval(own)))
-            for each, own, r in zip(machines, found, records, strict=True)
-        ]
-        save_csv(*of_machines(SENSITIVITY, blocks), csv_file)
+        _save(found, csv_file)
     if output:
-        if what == "speeds":
-            draw_speeds(machines, records, output)
-        else:
-            draw_moved(machines, found, list(map(MOVED[what], found, firsts)), output)
+        from bikestab_cli.sensitivity_picture import draw
+
+        draw(found, what, output)
     files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if as_json:
-        print_json(record_of(machines, model, [[_result(record)] for record in records], files))
-        return
-    if what != "speeds":
-        shown = zip(machines, found, firsts, strict=True)
-        texts = [told_of(opening(of, each.changes), of, MOVED[what](of, first)) for each, of, first in shown]
-        click.echo("\n\n".join(texts))
-    elif len(found) == 1:
-        click.echo(told(found[0], firsts[0], records[0], machines[0].changes))
+        results = results_of_all(machines, lacks, [[each.result()] for each in found])
+        print_json(record_of(machines, model, results, files))
     else:
-        click.echo(side_by_side(found, records, machines))
-    for each, known in zip(found, spreads, strict=True):
-        if known:
-            click.echo(prose(f"\n{each.bicycle.name}, {told_spread(known)}"))
-    for name in files.values():
-        tell_file(name)
+        click.echo(_told(found, what, told_without(machines, lacks)))
+        for name in files.values():
+            tell_file(name)
+    end_of_all(machines, lacks)
 
 
-def _result(record: Mapping[str, Any]) -> dict[str, Any]:
-    """What is of one result; the rest is said of all."""
-    return {key: value for key, value in record.items() if key not in ("bicycle", "model", "delta")}
+def _told(found: Sequence[Found], what: str, left_out: Sequence[str]) -> str:
+    from bikestab_cli.sensitivity_more import MOVED, told_of
+    from bikestab_cli.sensitivity_words import opening, side_by_side, told
+    from bikestab_cli.spread_words import told_spread
+
+    if what != "speeds":
+        texts = [
+            told_of(opening(each.of, each.machine.changes), each.of, MOVED[what](each.of, each.first))
+            for each in found
+        ]
+        parts = ["\n\n".join(texts)]
+    elif len(found) == 1 and not left_out:
+        (one,) = found
+        parts = [told(one.of, one.first, one.record, one.machine.changes)]
+    else:
+        parts = [side_by_side(found)]
+    parts += [f"{each.machine.words}, {told_spread(each.spread)}" for each in found if each.spread]
+    return "\n\n".join([parts[0], *map(prose, [*parts[1:], *left_out])])
+
+
+def _save(found: Sequence[Found], name: str) -> None:
+    from bikestab.design.effects import without_interval
+    from bikestab.export.effects import SENSITIVITY, sensitivity_blocks
+    from bikestab.export.tables import of_machines, save_csv
+
+    blocks = [
+        (
+            each.of.bicycle.name,
+            each.machine.changes,
+            sensitivity_blocks(each.record, without_interval(each.of)),
+        )
+        for each in found
+    ]
+    save_csv(*of_machines(SENSITIVITY, blocks), name)

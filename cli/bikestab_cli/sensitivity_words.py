@@ -11,7 +11,7 @@ from bikestab_cli.output import design_columns, heading, letter_of, prose, table
 from bikestab_cli.sensitivity_more import BUILDERS, growth_moved, line, sigma_moved
 
 if TYPE_CHECKING:
-    from bikestab_cli.several import Chosen
+    from bikestab_cli.sensitivity_found import Found
 
     from bikestab.design.effects import Row, Tried
     from bikestab.design.sensitivity import Sensitivity
@@ -167,17 +167,16 @@ def _interval(interval: Interval | None) -> list[str]:
     return [f"{interval['V1']:.3f}", f"{interval['V2']:.3f}", f"{interval['V2'] - interval['V1']:.3f}"]
 
 
-def side_by_side(
-    found: Sequence[Sensitivity], records: Sequence[Mapping[str, Any]], machines: Sequence[Chosen]
-) -> str:
+def side_by_side(found: Sequence[Found]) -> str:
     """The elasticities of several machines' widest intervals, what matters most to any of them first."""
     parts = []
+    records = [each.record for each in found]
     for start in range(0, len(found), _FEW):
         heads = []
         for i, each in enumerate(found[start : start + _FEW], start):
-            head = f"{letter_of(i)}: {heading(each.bicycle, each.model)}, {each.hold} held"
-            head += f", {machines[i].changes}" if machines[i].set else ""
-            heads.append(prose(f"{head}\n   {_summary(records[i])}"))
+            head = f"{letter_of(i)}: {heading(each.of.bicycle, each.of.model)}, {each.of.hold} held"
+            head += f", {each.machine.changes}" if each.machine.set else ""
+            heads.append(prose(f"{head}\n   {_summary(each.record)}"))
         parts += ["\n".join(heads), _elasticities(records[start : start + _FEW], start)]
     parts.append("%/%: per cent of the speed for one per cent of the parameter")
     return "\n\n".join(parts)

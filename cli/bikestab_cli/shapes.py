@@ -96,10 +96,10 @@ def of_machines(text: str, optional: tuple[str, ...] = (), /, **properties: Sche
     )
 
 
-def or_problems(schema: Schema) -> Schema:
-    """The shape of answers about machines of which some may have no design."""
+def or_problems(schema: Schema, *others: str) -> Schema:
+    """The shape of answers about machines of which some may have no design; ``others`` are null then too."""
     results = schema["properties"]["results"]
-    nothing = {name: {**NULL, "description": "there is none"} for name in (*DESIGN, "nearest")}
+    nothing = {name: {**NULL, "description": "there is none"} for name in (*DESIGN, *others)}
     problem = record(
         "one of several machines that has no design", **WHOSE, **nothing,
         intervals={**some({}, "empty"), "maxItems": 0}, error=words("why, and what to do"),

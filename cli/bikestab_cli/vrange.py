@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_designs, is_single
+from bikestab_cli.designless import end_of_all, lacking, record_without
 from bikestab_cli.options import (
     PICTURE,
     check_files,
@@ -19,12 +20,10 @@ from bikestab_cli.options import (
 from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.several import Chosen, Values, check_varied, machines_chosen, record_of, several_machines
 from bikestab_cli.spreads import spreads, with_spreads
-from bikestab_cli.streams import tell_error
 from bikestab_cli.vrange_over import show_over
 from bikestab_cli.vrange_words import Found, told_all, told_one
 
 if TYPE_CHECKING:
-    from bikestab.bicycle import Bicycle
     from bikestab.model import Model
 
 
@@ -102,13 +101,12 @@ def command(
         return
     axis = _axis_drawn(given) if output else ""
     single = is_single(given) and len(machines) == 1
+    lacks = lacking(machines, given)
     found = [
-        _found(machine, given, model, deviations, as_json or single, several=len(machines) > 1)
-        for machine in machines
+        Found(machine, [], [], lack) if lack else _found(machine, given, model, deviations, as_json or single)
+        for machine, lack in zip(machines, lacks, strict=True)
     ]
     shown = [each for each in found if not each.problem]
-    if len(machines) > 1 and not shown:
-        raise click.UsageError(_advice(*found), click.get_current_context())
     files = {}
     if output:
         from bikestab.plot.ends import draw_ends
@@ -123,51 +121,22 @@ def command(
         tell_file(output)
     else:
         click.echo(told_one(found[0], model, single) if len(machines) == 1 else told_all(found, model))
-    if left_out := [each for each in found if each.problem]:
-        tell_error(_advice(*left_out))
-        click.get_current_context().exit(2)
+    end_of_all(machines, lacks)
 
 
 def _results(found: Found) -> Sequence[Mapping[str, Any]]:
-    if not found.problem:
-        return with_spreads(found.answers, found.spreads)
-    nothing = dict.fromkeys(("lam", "sigma", "head_angle_deg", "trail", "offset", "nearest"))
-    return [{**nothing, "intervals": [], "error": _advice(found)}]
-
-
-def _advice(*found: Found) -> str:
-    """Why machines are left out, and what to do."""
-    first, *others = found
-    words = ", ".join(each.machine.words for each in found)
-    lacks = [word for word in ("tilt", "trail") if any(word in each.problem for each in found)]
-    has = f"have no {' and '.join(lacks)} of their own" if others else f"has {first.problem}"
-    options = [option for option, word in (("--lam", "tilt"), ("--sigma", "trail")) if word in lacks]
-    return f"{words} {has}: give {' and '.join(options)}, of all machines then, or files with their own"
-
-
-def _missing(bicycle: Bicycle, given: Given) -> str:
-    """What a bicycle lacks for a design, if it has not all of one and nothing gives it; else nothing."""
-    lacks = [
-        word
-        for word, own, options in (
-            ("tilt", bicycle.lam, ("lam", "head_angle")),
-            ("trail", bicycle.sigma, ("sigma", "trail")),
-        )
-        if own is None and not any(name in given for name in (*options, "offset"))
-    ]
-    return f"no {' and '.join(lacks)} of its own" if lacks else ""
+    if found.problem:
+        return [{**record_without(found.machine, found.problem), "nearest": None}]
+    return with_spreads(found.answers, found.spreads)
 
 
 def _found(
-    machine: Chosen, given: Given, model: Model, deviations: tuple[bool, dict[str, float]], nearest: bool,
-    *, several: bool,
+    machine: Chosen, given: Given, model: Model, deviations: tuple[bool, dict[str, float]], nearest: bool
 ) -> Found:  # fmt: skip
     """The answers about one machine; a table has no room for what is ``nearest``."""
     from bikestab.region.answers import stable_speeds
 
     bicycle = machine.bicycle
-    if several and (missing := _missing(bicycle, given)):
-        return Found(machine, [], [], missing)
     lam, sigma = designs_chosen(bicycle, given)
     with told_as_options():
         answers = stable_speeds(bicycle, lam, sigma, model=model, nearest=nearest)

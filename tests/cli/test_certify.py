@@ -200,7 +200,7 @@ def test_the_largest_box_of_design(bikestab, tmp_path):
     ("options", "words"),
     [
         (["--certified", "--lam", "0.1:0.2"], "give --lam one value"),
-        (["--certified", "--lam", "0.2"], "has no sigma of its own; give --sigma"),
+        (["--certified", "--lam", "0.2"], "has no sigma of its own: give --sigma"),
         (["--certified", "--free", "lam=0.1:0.2"], "leave out --free"),
         (["--certified", "--bicycle", "meijaard2007", "--stable", "1:2"], "from 4.292 to 6.024 m/s"),
         (["--certified", "--bicycle", "meijaard2007", "--V", "1:2"], "a range is --stable"),

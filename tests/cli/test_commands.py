@@ -387,7 +387,9 @@ def test_what_fails(bikestab, entry):
 
 def test_check_without_a_design(bikestab):
     mistake(check(bikestab, "V1: 4"), "c.yaml")
-    mistake(check(bikestab, "V1: 4"), "expect[0]: the bicycle 'dikarev1981' has no lam of its own")
+    mistake(
+        check(bikestab, "V1: 4"), "expect[0]: the bicycle 'dikarev1981' has no lam and no sigma of its own"
+    )
 
 
 def test_check_mistakes(bikestab):

@@ -153,7 +153,10 @@ def test_the_tornado_picture(told):
         (["--bicycle", "meijaard2007", "--sd", "mX=1"], "--sd: there is no parameter 'mX'; known: w, c"),
         (["--bicycle", "meijaard2007", "--sd", "mB=0"], "mB=0 is no standard deviation; allowed: above 0"),
         (["--bicycle", "meijaard2007", "--sd", "mB"], "'mB' is not NAME=VALUE"),
-        ([], "has no lam of its own"),
+        (
+            [],
+            "has no lam and no sigma of its own: give --lam and --sigma, for example --lam 0.2 --sigma 0.08",
+        ),
         (["--bicycle", "meijaard2007", "--hold", "rake"], "'rake' is not one of"),
         (["--bicycle", "meijaard2007", "--csv", "none/a.csv"], "none/a.csv: cannot be written"),
         (["--bicycle", "meijard2007"], "did you mean 'meijaard2007'?"),
