@@ -105,13 +105,13 @@ def _widths(
         if capped.any():
             _hatch(ax, x, y, capped, "..", "0.35")
             handles.append(_patch("..", "0.35", f"V₂ above {wanted.V_max:g} m/s or unbounded", WIDTH(0.95)))
-        for values, dashes, label in (
-            (np.where(some, V1, np.nan), "-", "V₁ [m/s]"),
-            (np.where(some & ~capped, V2, np.nan), (0, (5, 2)), "V₂ [m/s]"),
+        for values, dashes, symbol in (
+            (np.where(some, V1, np.nan), "-", "V₁"),
+            (np.where(some & ~capped, V2, np.nan), (0, (5, 2)), "V₂"),
         ):
-            if drawn := draw_levels(ax, x, y, _without_jumps(values), dashes):
+            if drawn := draw_levels(ax, x, y, _without_jumps(values), dashes, symbol):
                 levels += drawn
-                handles.append(entry(label, color="black", lw=1, ls=dashes))
+                handles.append(entry(f"{symbol} [m/s]", color="black", lw=1, ls=dashes))
     else:
         ax.text(
             0.5, 0.5, f"no stable speed below {wanted.V_max:g} m/s", transform=ax.transAxes, ha="center",

@@ -1,4 +1,4 @@
-"""Lines of equal value, with numbers on them where these cover nothing else."""
+"""Lines of equal value, with symbol and number on them where these cover nothing else."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patheffects import withStroke
 
 from bikestab.model import Floats
 from bikestab.plot.placing import Room, half_size, write
@@ -17,18 +16,19 @@ _LEVELS = 9  # steps between most of the values
 _SIZE = 8  # of numbers
 _CANDIDATES = 60  # places along a line
 _SHORTEST = 2.5  # of lines with a number, in its widths
-_HALO = [withStroke(linewidth=3, foreground="white")]
+_WHITE = {"facecolor": "white", "edgecolor": "none", "boxstyle": "round,pad=0.1"}
 
 
 class Level(NamedTuple):
-    """One piece (n, 2) of a line, and the number of its value."""
+    """One piece (n, 2) of a line, its value, and the symbol of what has it."""
 
-    text: str
+    symbol: str
+    value: str
     piece: Floats
 
 
-def draw_levels(ax: Axes, x: Floats, y: Floats, values: Floats, dashes: Any) -> list[Level]:
-    """Lines of values at (y, x), NaN where there are none, a round step apart."""
+def draw_levels(ax: Axes, x: Floats, y: Floats, values: Floats, dashes: Any, symbol: str) -> list[Level]:
+    """Lines of values of a symbol at (y, x), NaN where there are none, a round step apart."""
     finite = values[np.isfinite(values)]
     if not finite.size or np.ptp(finite) == 0:
         return []
@@ -40,7 +40,7 @@ def draw_levels(ax: Axes, x: Floats, y: Floats, values: Floats, dashes: Any) -> 
     lines = ax.contour(x, y, np.ma.masked_invalid(values), levels=levels, colors="black", linewidths=1)
     lines.set_linestyle(dashes)
     return [
-        Level(f"{level:g}", np.asarray(piece))
+        Level(symbol, f"{level:g}", np.asarray(piece))
         for level, pieces in zip(levels, lines.allsegs, strict=True)
         for piece in pieces
         if len(piece) > 1
@@ -48,24 +48,30 @@ def draw_levels(ax: Axes, x: Floats, y: Floats, values: Floats, dashes: Any) -> 
 
 
 def label_levels(ax: Axes, levels: Sequence[Level], room: Room) -> None:
-    """Write each line's number on it, the longest lines first; none where there is no room for it.
+    """Write each line's symbol and value on it, or the value, the longest lines first; none without room.
 
     What else is drawn is in ``room``, and the axes stay as they are.
     """
     paths = [room.along(*level.piece.T) for level in levels]
-    drawn = list(range(len(levels)))
-    for i in sorted(drawn, key=lambda i: -len(paths[i])):
-        half = half_size(levels[i].text, _SIZE)
-        if _length(paths[i]) < _SHORTEST * 2 * half[0]:
-            continue
-        places = paths[i][:: max(len(paths[i]) // _CANDIDATES, 1)]
-        others = [paths[j] for j in drawn if j != i and len(paths[j])]
-        free = np.minimum(room.free(places, half), _free(places, others, half))
-        at = np.linspace(-1, 1, len(places))
-        best = int(np.argmax(np.minimum(free, 2) - 0.2 * np.abs(at)))  # rather in a line's middle
-        if free[best] >= 1:
-            room.box(places[best], half)
-            write(room, ax, levels[i].text, places[best], _SIZE, path_effects=_HALO, zorder=3.5)
+    for i in sorted(range(len(levels)), key=lambda i: -len(paths[i])):
+        others = [path for j, path in enumerate(paths) if j != i and len(path)]
+        symbol, value, _ = levels[i]
+        for text in (f"{symbol} {value}", value):
+            if (place := _place(text, paths[i], others, room)) is not None:
+                room.box(place, half_size(text, _SIZE))
+                write(room, ax, text, place, _SIZE, bbox=_WHITE, zorder=3.5)
+                break
+
+
+def _place(text: str, path: Floats, others: Sequence[Floats], room: Room) -> Floats | None:
+    """Where on a line a text covers nothing, rather in its middle."""
+    half = half_size(text, _SIZE)
+    if _length(path) < _SHORTEST * 2 * half[0]:
+        return None
+    places = path[:: max(len(path) // _CANDIDATES, 1)]
+    free = np.minimum(room.free(places, half), _free(places, others, half))
+    best = int(np.argmax(np.minimum(free, 2) - 0.2 * np.abs(np.linspace(-1, 1, len(places)))))
+    return np.asarray(places[best]) if free[best] >= 1 else None
 
 
 def _length(path: Floats) -> float:

@@ -12,7 +12,7 @@ from matplotlib.transforms import ScaledTranslation
 from bikestab.design.best import Best
 from bikestab.design.optimum import place_in_plane
 from bikestab.family import Family
-from bikestab.model import Floats
+from bikestab.plot.axes import HALO
 from bikestab.plot.colours import OWN
 from bikestab.plot.placing import Room
 
@@ -22,7 +22,15 @@ OPTIMA: dict[str, tuple[str, str, float]] = {  # marker, legend, size
     "lowest_V1": ("v", "lowest V₁", 9),
     "fastest_decay": ("D", "fastest decay", 7.5),
 }
-_APART = 15.0  # points: marks that would cover each other
+_LEAST = 10.5  # points: marks that are nearer would cover each other
+_GAP = 2.0  # points, around a mark beside its place
+_AROUND = np.array(  # points, from a mark's place to where it stands beside it, the nearest first
+    [
+        (far * np.cos(angle), far * np.sin(angle))
+        for far in (26.0, 33.0, 40.0, 50.0)
+        for angle in np.radians(np.arange(-15, 345, 30))
+    ]
+)
 
 
 class Mark(NamedTuple):
@@ -55,19 +63,27 @@ def draw_optima(ax: Axes, family: Family, best: Best) -> tuple[list[Line2D], lis
 
 
 def part(ax: Axes, marks: list[Mark], room: Room) -> None:
-    """Draw a mark beside its place where another is there, tied to it by a line; all are then in ``room``."""
+    """Draw a mark that would cover another beside its place, to which an arrow then points.
+
+    All are then in ``room``, which has the curves already.
+    """
     figure: Any = ax.figure
-    taken: list[Floats] = []
-    for line, place in marks:
-        at = room.at(*place)[0]
-        step = _APART if at[0] < room.size[0] / 2 else -_APART
-        away = 0.0
-        while any(np.hypot(at[0] + away - other[0], at[1] - other[1]) < 0.7 * _APART for other in taken):
-            away += step
-        taken.append(np.array([at[0] + away, at[1]]))
-        size = float(line.get_markersize())
-        room.box(taken[-1], np.array([size, size]) / 2)
-        if away:
-            tie = {"arrowstyle": "-", "color": "black", "lw": 1, "shrinkA": 0, "shrinkB": 0}
-            ax.annotate("", place, (away, 0), textcoords="offset points", arrowprops=tie, zorder=4)
-            line.set_transform(ax.transData + ScaledTranslation(away / 72, 0, figure.dpi_scale_trans))
+    places = [room.at(*mark.place)[0] for mark in marks]
+    sizes = [np.full(2, 0.5 * float(mark.line.get_markersize())) for mark in marks]
+    apart = [
+        min((float(np.hypot(*(place - other))) for other in places[:i]), default=_LEAST)
+        for i, place in enumerate(places)
+    ]
+    for place, half, far in zip(places, sizes, apart, strict=True):
+        if far >= _LEAST:
+            room.box(place, half)
+    for (line, data), place, half, far in zip(marks, places, sizes, apart, strict=True):
+        if far < _LEAST:
+            free = room.free(place + _AROUND, half + _GAP)
+            away = _AROUND[np.flatnonzero(free >= min(1.0, free.max()))[0]]
+            room.box(place + away, half)
+            arrow = {"arrowstyle": "-|>", "color": "black", "lw": 1.2, "path_effects": HALO}
+            arrow |= {"shrinkA": half[0] + 1, "shrinkB": half[0] if far < half[0] else 0}
+            ax.annotate("", data, tuple(away), textcoords="offset points", arrowprops=arrow, zorder=6)
+            x, y = away / 72
+            line.set_transform(ax.transData + ScaledTranslation(x, y, figure.dpi_scale_trans))

@@ -5,6 +5,8 @@ import functools
 import numpy as np
 import pytest
 from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
+from scipy.spatial.distance import pdist
 
 from bikestab.bicycle import Bicycle
 from bikestab.design import best as module
@@ -14,6 +16,8 @@ from bikestab.design.criteria import Wanted
 from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.plot.designs import draw_designs
+from bikestab.plot.optima import Mark, part
+from bikestab.plot.placing import Room
 from bikestab.region.curves import Curve
 from bikestab.speeds import intervals_of
 
@@ -83,3 +87,23 @@ def test_a_picture_of_nothing():
     figure, legend = picture(wanted)
     assert [text.get_text() for text in figure.axes[0].texts] == ["no stable speed below 30 m/s"]
     assert "closest" in legend
+
+
+def test_numbers_on_lines_say_whose_they_are():
+    figure, _ = picture(BENCHMARK)
+    texts = [text.get_text() for text in figure.axes[0].texts]
+    assert {text.split()[0] for text in texts if " " in text} == {"V₁", "V₂"}
+    assert all(float(text.split()[-1]) > 0 for text in texts)
+
+
+def test_an_arrow_points_from_a_mark_to_the_place_that_another_has():
+    ax = Figure(figsize=(5, 5)).add_subplot(xlim=(0, 1), ylim=(0, 1))
+    places = [(1.0, 1.0), (1.0, 1.0), (0.99, 1.0), (0.5, 0.5)]
+    marks = [Mark(ax.plot(*place, "v", ms=9)[0], place) for place in places]
+    part(ax, marks, Room(ax))
+    assert [tuple(arrow.xy) for arrow in ax.texts] == places[1:3]
+    drawn = [mark.line.get_transform().transform(mark.place) for mark in marks]
+    assert drawn[0] == pytest.approx(ax.transData.transform(places[0]))
+    assert drawn[3] == pytest.approx(ax.transData.transform(places[3]))
+    assert pdist(drawn).min() > 9 * ax.figure.dpi / 72
+    assert all(ax.bbox.contains(*place) for place in drawn[1:])
