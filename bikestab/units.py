@@ -33,6 +33,8 @@ RATE: Units = {"rad/s": (1, 1), "deg/s": _DEGREE, "°/s": _DEGREE}
 TIME: Units = {"s": (1, 1), "ms": (1, 1000), "min": (60, 1)}
 PURE: Units = {}
 
+BUILDERS = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi)}  # in which a frame is built, and how many
+
 _DIMENSIONS: dict[str, Units] = {
     "an angle": ANGLE, "a length": LENGTH, "a speed": SPEED, "a mass": MASS, "a moment of inertia": INERTIA,
     "a damping": DAMPING, "an acceleration": ACCELERATION, "a rate": RATE, "a time": TIME,
@@ -110,6 +112,12 @@ def units_in(meaning: str) -> Units:
     """The units of what is described with its SI unit in brackets at the end, such as ``wheelbase [m]``."""
     symbol = meaning.rpartition("[")[2].rstrip("]")
     return next((units for units in _DIMENSIONS.values() if symbol in units), PURE)
+
+
+def as_built(value: float, unit: str) -> str:
+    """A quantity in SI units in those in which frames are built: lengths in mm, angles in degrees."""
+    unit, size = BUILDERS.get(unit, (unit, 1.0))
+    return f"{value * size:.6g} {unit}".removesuffix(" 1").replace(" deg", "°")
 
 
 def shown(value: object) -> str:

@@ -13,6 +13,7 @@ from bikestab.geometry import offset_of, tilt_from, trail_from
 from bikestab.limits import check_tilt, check_trail
 from bikestab.machines import Machines
 from bikestab.notation import superseded
+from bikestab.units import as_built
 
 TILT = {"lam": "steering-axis tilt [rad]", "head_angle": "head angle, 90° − tilt [rad]"}
 TRAIL = {"sigma": "trail divided by the wheelbase [1]", "trail": "trail along the ground [m]"}
@@ -33,6 +34,12 @@ class Parameter(NamedTuple):
 def parameter_of(bicycle: Bicycle, name: str) -> Parameter:
     """What a parameter of the bicycle is called."""
     return Parameter(name, _SYMBOLS.get(name, name), *_meanings(bicycle)[name][:-1].rsplit(" [", 1))
+
+
+def told_deviations(bicycle: Bicycle, deviations: Mapping[str, float]) -> str:
+    """Standard deviations in words."""
+    values = {name: as_built(sd, parameter_of(bicycle, name).unit) for name, sd in deviations.items()}
+    return ", ".join(f"{name} {value}" for name, value in values.items())
 
 
 def varied(

@@ -11,7 +11,7 @@ import numpy as np
 
 from bikestab.aside import meanwhile
 from bikestab.bicycle import Bicycle
-from bikestab.design.ball import Ball, Robust, most_robust
+from bikestab.design.ball import Ball, most_robust
 from bikestab.design.criteria import (
     WORSE,
     Criterion,
@@ -129,13 +129,14 @@ class FreeDesign(Design):
 
 
 class RobustDesign(TypedDict):
-    """The design with the largest ball of stable machines around it, in standard deviations.
+    """The design with the largest ball of stable machines around it, in standard ``deviations``.
 
     ``radius`` is that of the ball; at ``nearest``, a machine on its surface, the interval of speeds is lost.
     """
 
     design: FreeDesign
     radius: float
+    deviations: dict[str, float]
     nearest: dict[str, float]
 
 
@@ -174,7 +175,10 @@ def best_free(free: Free, deviations: Mapping[str, float] | None = None) -> Free
         ball = Ball(free.bicycle, free.model, free.stable, free.ends, deviations)
         with meanwhile(optimized) as others:
             if found := most_robust(ball, free.first):
-                robust = _robust_design(free, found)
+                x, radius, nearest = found
+                robust = RobustDesign(
+                    design=free_design(free, x), radius=radius, deviations={**deviations}, nearest=nearest
+                )
             optima = others()
     else:
         optima = optimized()
@@ -242,7 +246,3 @@ def _place(free: Free, x: Floats, *, vanishes: bool) -> str:
     limits = [f"limit of {name}" for name, there in zip(free.ends, at, strict=True) if there]
     limits += ["edge of the stable region" + SHRINKS] if vanishes else []
     return ", ".join(limits) or "interior"
-
-
-def _robust_design(free: Free, robust: Robust) -> RobustDesign:
-    return {"design": free_design(free, robust.x), "radius": robust.radius, "nearest": robust.nearest}

@@ -8,20 +8,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bikestab.design.free import Free, FreeBest, FreeDesign
-from bikestab.plot.axes import HALO
+from bikestab.plot.axes import HALO, LABELS, remarks
 from bikestab.plot.colours import OWN
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import COLOURS
-from bikestab.variants import parameter_of
+from bikestab.variants import parameter_of, told_deviations
 
 # as in pictures of planes of designs
 _MARKS = {"own": "*", "widest": "^", "lowest V1": "v", "fastest decay": "D", "most robust": "o"}
 _NAMES = {"own": "own design", "lowest V1": "lowest V₁"}
 _NO_PINKS = (0, 2, 5, 4)
 _ROOM = 0.25  # of the axis, for the words beside a bar
-_ROWS = 0.5  # of a parameter's row, over which its marks are spread so that none hides another
+_BAR, _MARK = 0.4, 0.14  # inches of a bar's row, and of each mark in a parameter's row
+_ROWS = 0.7  # of a parameter's row, over which its marks are spread so that none hides another
 _BEYOND = 1.1  # where what is unbounded ends in the picture, of the largest end
 
 
@@ -30,11 +31,11 @@ def draw_free(free: Free, best: FreeBest) -> Figure:
     """A bar of stable speeds for each design, and for each free parameter where in its range they lie."""
     designs = best.designs
     colours = dict(zip(_MARKS, (OWN, *(COLOURS[i] for i in _NO_PINKS)), strict=True))
-    rows = max(len(designs), 1), len(free.ends)
-    figure = Figure(figsize=(7.2, 2.2 + 0.44 * sum(rows)), layout="constrained")
-    above, below = figure.subplots(2, 1, height_ratios=rows)
+    heights = _BAR * max(len(designs), 1), max(_BAR, _MARK * len(designs)) * len(free.ends)
+    figure = Figure(figsize=(6.2, 2.6 + sum(heights)), layout="constrained")
+    above, below = figure.subplots(2, 1, height_ratios=heights)
     _speeds(above, free, designs, colours)
-    set_title(above, short(free.bicycle.name) + ("" if designs else ": no design found"))
+    set_title(above, *_title(free, best))
     _places(below, free, designs, colours)
     marks = [
         entry(_NAMES.get(name, name), color=colours[name], marker=_MARKS[name], ls="", ms=_size(name))
@@ -42,6 +43,22 @@ def draw_free(free: Free, best: FreeBest) -> Figure:
     ]
     legend_below(figure, marks)
     return figure
+
+
+def _title(free: Free, best: FreeBest) -> list[str]:
+    """What was searched for, and how robust what was found is."""
+    name = f"{short(free.bicycle.name)}{remarks(free.bicycle, free.model, free.ends)}"
+    if not best.designs:
+        return [f"{name}: no design found"]
+    lines = [
+        f"{name}: best designs of {len(free.ends)} free parameters".replace(
+            "of 1 free parameters", "of one free parameter"
+        )
+    ]
+    if robust := best.most_robust:
+        sd = told_deviations(free.bicycle, robust["deviations"])
+        lines.append(f"most robust: stable within {robust['radius']:.3g} standard deviations ({sd})")
+    return lines
 
 
 def _speeds(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Mapping[str, str]) -> None:
@@ -68,7 +85,10 @@ def _speeds(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Ma
     ax.set_yticks(range(len(designs)), [_NAMES.get(name, name) for name in designs])
     ax.set_ylim(max(len(designs), 1) - 0.5, -0.5)
     ax.set_xlim(0, top)
-    ax.set_xlabel("speed V [m/s]" + ("; dashed: stable as asked" if free.stable else ""))
+    asked = (
+        f"; dashed: all are to be stable from {free.stable[0]:g} to {free.stable[1]:g}" if free.stable else ""
+    )
+    ax.set_xlabel(LABELS["V"] + asked)
 
 
 def _places(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Mapping[str, str]) -> None:
@@ -78,6 +98,7 @@ def _places(ax: Axes, free: Free, designs: Mapping[str, FreeDesign], colours: Ma
     for row, (name, (low, high)) in enumerate(free.ends.items()):
         unit = parameter_of(free.bicycle, name).unit
         labels.append(f"{name}: {low:.4g} … {high:.4g} {unit}".removesuffix(" 1"))
+        ax.axhspan(row - 0.5, row + 0.5, color="white" if row % 2 else "0.95", lw=0, zorder=0)
         ax.plot([0, 1], [row, row], color="0.7", lw=1, zorder=1)
         for i, (which, design) in enumerate(designs.items()):
             share = (design["over"][name] - low) / (high - low) if high > low else 0.5

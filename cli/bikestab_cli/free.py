@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,7 @@ from bikestab_cli.output import heading, print_json, prose, table, tell_file, wi
 from bikestab_cli.several import Chosen, record_of
 
 from bikestab.files import to_stdout
-from bikestab.variants import parameter_of
+from bikestab.variants import parameter_of, told_deviations
 
 if TYPE_CHECKING:
     from bikestab.design.free import Free, FreeBest, FreeDesign
@@ -58,7 +59,7 @@ def tell_free(
             best = best_free(free, {**known, **given})
         searched = {**ends, "V_max": V_max, "judged": judged, "stable": stable}
         results.append([{"searched": searched, **best._asdict(), "pareto": [], "closest": None}])
-        told.append(told_free(free, best, machine.changes))
+        told.append(told_free(free, best, {**known, **given}, machine.changes))
         bests.append(best)
     if not as_json:
         told += told_without(machines, lacks)
@@ -83,7 +84,7 @@ def tell_free(
     end_of_all(machines, lacks)
 
 
-def told_free(free: Free, best: FreeBest, changes: str) -> str:
+def told_free(free: Free, best: FreeBest, deviations: Mapping[str, float], changes: str) -> str:
     """What was searched, the optima, and how robust the last of them is."""
     changed = f" ({changes})" if changes else ""
     ranges = []
@@ -91,7 +92,10 @@ def told_free(free: Free, best: FreeBest, changes: str) -> str:
         unit = parameter_of(free.bicycle, name).unit
         ranges.append(f"{name} = {low:.6g} ... {high:.6g} {unit}".removesuffix(" 1"))
     stable = f"; stable from {free.stable[0]:g} to {free.stable[1]:g} m/s" if free.stable else ""
-    parts = [f"{heading(free.bicycle, free.model)}{changed}\nsearched: {', '.join(ranges)}{stable}"]
+    searched = f"searched: {', '.join(ranges)}{stable}"
+    if deviations:
+        searched += f"\nstandard deviations: {told_deviations(free.bicycle, deviations)}"
+    parts = [f"{heading(free.bicycle, free.model)}{changed}\n{searched}"]
     found = {name.replace(" ", "\n"): design for name, design in best.designs.items()}
     if not (best.widest or best.lowest_V1):
         parts.append("no design was found that is stable as asked; larger ranges of --free may help")

@@ -110,6 +110,7 @@ _REGION = record(
 _ROBUST = record(
     "the design with the largest ball of stable machines", design=_JUDGED,
     radius=num("of the ball, in standard deviations"),
+    deviations=named(NUMBERS, "these, by parameter, in SI units"),
     nearest=named(NUMBERS, "the nearest machine that is not stable, by parameter"),
 )  # fmt: skip
 _WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")

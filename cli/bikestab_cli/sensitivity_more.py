@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bikestab_cli.output import prose, table
 
+from bikestab.units import BUILDERS
+
 if TYPE_CHECKING:
     from bikestab.design.sensitivity import Sensitivity
     from bikestab.region.first_sigma import FirstSigma
 
-BUILDERS = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi)}  # units in which a frame is built
 _NAMES = 6  # named in the line
 _LEAST = 0.005  # of the largest: smaller bars are none to see
 

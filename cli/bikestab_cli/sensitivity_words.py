@@ -8,7 +8,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from bikestab_cli.output import design_columns, heading, letter_of, prose, table
-from bikestab_cli.sensitivity_more import BUILDERS, growth_moved, line, sigma_moved
+from bikestab_cli.sensitivity_more import growth_moved, line, sigma_moved
+
+from bikestab.units import BUILDERS
 
 if TYPE_CHECKING:
     from bikestab_cli.sensitivity_found import Found

@@ -2,10 +2,15 @@
 
 import csv
 import json
+import math
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
+from scipy.spatial.distance import pdist
+
+from bikestab.plot import files
 
 FREE = "--bicycle", "meijaard2007", "--free", "lam=0.1:0.5", "--free", "trail=2cm:15cm"
 
@@ -38,6 +43,31 @@ def test_files_have_what_the_table_has(told):
     assert float(rows["widest"]["trail"]) == result["widest"]["over"]["trail"]
     assert float(rows["most robust"]["V2"]) == result["most_robust"]["design"]["V2"]
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_deviations_and_the_radius_are_told_and_drawn(told, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(files, "save", lambda figure, path: drawn.append(figure))
+    args = (*FREE, "--stable", "4.6:5.4", "--sd", "lam=0.5deg", "--sd", "trail=5mm", "--sd", "mB=3")
+    out = told(*args, "-o", "a.png")[1]
+    words = "lam 0.5°, trail 5 mm, mB 3 kg"
+    assert f"standard deviations: {words}\n" in out
+    robust = json.loads(told(*args, "--json")[1])["results"][0]["most_robust"]
+    assert robust["deviations"] == {"lam": math.radians(0.5), "trail": 0.005, "mB": 3}
+    title = " ".join(drawn[0].axes[0].get_title().split())
+    assert f"stable within {robust['radius']:.3g} standard deviations ({words})" in title
+
+
+def test_no_mark_of_a_search_hides_another(told, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(files, "save", lambda figure, path: drawn.append(figure))
+    told(*FREE, "--free", "xB=0.2:0.4", "--stable", "4.6:5.4", "--sd", "mB=3", "-o", "a.png")
+    drawn[0].draw_without_rendering()
+    places = drawn[0].axes[1]
+    marks = [line for line in places.lines if line.get_marker() != "None"]
+    at = places.transData.transform(np.concatenate([line.get_xydata() for line in marks]))
+    assert len(marks) == 15
+    assert pdist(at).min() > 6 * drawn[0].dpi / 72
 
 
 def test_a_picture_is_of_one_machine(told):
