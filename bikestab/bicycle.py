@@ -149,6 +149,12 @@ class Bicycle:
         vars(copy).update(known, bodies=self.bodies)  # a frozen dataclass has no other way
         return copy
 
+    def named(self, name: str) -> Bicycle:
+        """A copy with another name."""
+        copy = self.measured(self.deviations, self.correlations, self.notes)
+        vars(copy)["name"] = name
+        return copy
+
     def with_delta(self, delta: float | None) -> Bicycle:
         """Return a copy with the damping ``delta``, or the same for None."""
         return self if delta is None else self.replaced({"delta": delta})

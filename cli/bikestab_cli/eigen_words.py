@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from bikestab_cli.output import DESIGN_HEAD, WIDTH, certain, design_columns, heading, prose, table
+from bikestab_cli.output import (
+    DESIGN_HEAD,
+    WIDTH,
+    certain,
+    design_columns,
+    heading,
+    heading_of_all,
+    prose,
+    table,
+)
 
 if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
@@ -54,7 +63,16 @@ def told_all(found: Sequence[Followed], model: Model, left_out: Sequence[str]) -
         return _table(["machine"], rows, 0)
 
     designs_table = table(["machine", *DESIGN_HEAD], designs, fold=0)
-    return prose("\n\n".join([f"{model} model", designs_table, "\n".join(notes), _narrow(eigenvalues)]))
+    return prose(
+        "\n\n".join(
+            [
+                heading_of_all([each.machine.bicycle for each in found], model, found[0].machine.set),
+                designs_table,
+                "\n".join(notes),
+                _narrow(eigenvalues),
+            ]
+        )
+    )
 
 
 def _stable(found: Followed) -> list[str]:

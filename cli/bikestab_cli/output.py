@@ -6,7 +6,7 @@ import math
 import sys
 from collections.abc import Collection, Sequence
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -40,7 +40,7 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], fold: int | None =
     The column ``fold`` is of words: aligned to the left, and wrapped to what the others leave of 80 columns.
     """
     cells = [[cell.split("\n") for cell in row] for row in (head, *rows)]
-    widths = [max(len(line) for row in cells for line in row[i]) for i in range(len(head))]
+    widths = [max(columns(line) for row in cells for line in row[i]) for i in range(len(head))]
     if fold is not None:
         widths[fold] = min(
             widths[fold], max(WIDTH - sum(widths) - 2 * (len(head) - 1) + widths[fold], _LEAST)
@@ -50,35 +50,54 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], fold: int | None =
     lines = []
     for row in cells:
         for parts in zip_longest(*row, fillvalue=""):
+            blanks = [" " * (w - columns(t)) for t, w in zip(parts, widths, strict=True)]
             shown = [
-                t.ljust(w) if i == fold else t.rjust(w)
-                for i, (t, w) in enumerate(zip(parts, widths, strict=True))
+                t + b if i == fold else b + t for i, (t, b) in enumerate(zip(parts, blanks, strict=True))
             ]
             lines.append("  ".join(shown).rstrip())
     return "\n".join(lines)
 
 
-def _wrapped(line: str, width: int) -> list[str]:
-    """A line in parts of at most ``width`` letters, broken behind blanks and slashes where there are some."""
+def columns(text: str) -> int:
+    """How many columns of a terminal a line takes: letters of East Asia two, accents apart none."""
+    if text.isascii():
+        return len(text)
+    from unicodedata import combining, east_asian_width
+
+    return sum(0 if combining(letter) else 1 + (east_asian_width(letter) in "WF") for letter in text)
+
+
+def _wrapped(line: str, width: int, behind: str = " /", indent: str = "") -> list[str]:
+    """A line in parts of at most ``width`` columns, broken after a letter ``behind``, else anywhere.
+
+    All but the first are indented.
+    """
+    if columns(line) <= width:
+        return [line]
+    for letter in behind:
+        line = line.replace(letter, letter + "\0")
     lines = [""]
-    for word in line.replace("/", "/\0").replace(" ", " \0").split("\0") if len(line) > width else [line]:
+    for word in line.split("\0"):
         part = word
-        while len(lines[-1] + part.rstrip()) > width:
-            if not lines[-1]:
-                lines[-1], part = part[:width], part[width:]
-            lines.append("")
+        while columns(lines[-1] + part.rstrip()) > width:
+            if lines[-1].strip():
+                lines.append(indent)
+                continue
+            room = next(
+                n for n in range(len(part), 0, -1) if n == 1 or columns(lines[-1] + part[:n]) <= width
+            )
+            lines[-1], part = lines[-1] + part[:room], part[room:]
+            lines.append(indent)
         lines[-1] += part
-    return [text.rstrip() for text in lines]
+    return [text.rstrip() for text in lines if text.strip()]
 
 
 def prose(text: str) -> str:
     """Lines of words, each wrapped to 80 columns, and indented where it goes on; no number is cut off."""
     import re
-    import textwrap
 
-    tied = re.sub(r" (?==|\.\.\.|m/s|rad|1/s|kg)|(?<==) |(?<=\.\.\.) ", "\N{NO-BREAK SPACE}", text)
-    style: Any = {"subsequent_indent": "  ", "break_long_words": False, "break_on_hyphens": False}
-    lines = (line if len(line) <= WIDTH else textwrap.fill(line, WIDTH, **style) for line in tied.split("\n"))
+    tied = re.sub(r" (?==|\.\.\.|m/s|m²|rad|1/s|kg)|(?<==) |(?<=\.\.\.) ", "\N{NO-BREAK SPACE}", text)
+    lines = (part for line in tied.split("\n") for part in _wrapped(line, WIDTH, " ", "  "))
     return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")
 
 
@@ -126,6 +145,16 @@ def heading(bicycle: Bicycle, model: str, varied: Collection[str] = ()) -> str:
     gains = "".join(f", {name} = {gain:g}" for name, gain in bicycle.gains if name not in varied)
     damping = "" if "delta" in varied else f", damping {bicycle.delta:g} kg m²/s"
     return f"{bicycle.name}, {model} model{damping}{gains}{whose}"
+
+
+def heading_of_all(bicycles: Sequence[Bicycle], model: str, varied: Collection[str] = ()) -> str:
+    """What a table of several machines is of; damping where there is any, and it is not ``varied``."""
+    deltas = [f"{each.delta:g}" for each in bicycles]
+    if "delta" in varied or not any(each.delta for each in bicycles):
+        return f"{model} model"
+    if len({*deltas}) == 1:
+        return f"{model} model, damping {deltas[0]} kg m²/s"
+    return f"{model} model, damping in this order {', '.join(deltas)} kg m²/s"
 
 
 def count(number: int, what: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
@@ -82,9 +83,10 @@ def machines_chosen(
     if len(names) * len(combinations) > MOST_MACHINES:
         problem = f"{len(names) * len(combinations)} machines are too many; allowed: {MOST_MACHINES}"
         raise click.UsageError(problem, click.get_current_context())
+    if twice := [name for i, name in enumerate(names) if name in names[:i]]:
+        raise click.BadParameter(f"{twice[0]} is given twice; give it once", param_hint="--bicycle")
     machines = []
-    for name in names:
-        own = load_bicycle(name, delta)
+    for own in _told_apart(names, [load_bicycle(name, delta) for name in names]):
         _check_once(own, changes, given if delta is None else [*given, "delta"])
         tell_which(own, changes)
         for combination in combinations:
@@ -101,6 +103,15 @@ def machines_chosen(
                 warn(bicycle)
             machines.append(Chosen(bicycle, values))
     return machines
+
+
+def _told_apart(names: Sequence[str], bicycles: Sequence[Bicycle]) -> list[Bicycle]:
+    """The bicycles that ``names`` stand for; where several have one name, their files go with it."""
+    number = Counter(each.name for each in bicycles)
+    return [
+        each if number[each.name] == 1 or name == each.name else each.named(f"{each.name} ({name})")
+        for name, each in zip(names, bicycles, strict=True)
+    ]
 
 
 def check_varied(

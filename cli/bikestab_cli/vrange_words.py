@@ -6,7 +6,16 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from bikestab_cli.output import DESIGN_HEAD, WIDTH, certain, design_columns, heading, prose, table
+from bikestab_cli.output import (
+    DESIGN_HEAD,
+    WIDTH,
+    certain,
+    design_columns,
+    heading,
+    heading_of_all,
+    prose,
+    table,
+)
 
 if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
@@ -39,7 +48,7 @@ def told_one(found: Found, model: Model, single: bool) -> str:
 
     machine, answers, spreads, _ = found
     changed = f" ({machine.changes})" if machine.set else ""
-    parts = [heading(machine.bicycle, model) + changed + "\n", table(_HEAD, _rows(answers, 12))]
+    parts = [prose(heading(machine.bicycle, model) + changed) + "\n", table(_HEAD, _rows(answers, 12))]
     notes = [f"marginal at {_design(each)}: {each['reason']}" for each in answers if each["marginal"]]
     for answer, known in zip(answers, spreads, strict=False):
         lines = known_lines(known)
@@ -62,7 +71,14 @@ def told_all(found: list[Found], model: Model) -> str:
             (answer, "; ".join(known_lines(each))) for answer, each in zip(answers, spreads, strict=False)
         ]
         notes += [f"{machine.words} at {_design(answer)}: {text}" for answer, text in (*open_, *known)]
-    return "\n".join([f"{model} model\n", table(["machine", *_HEAD], rows, fold=0), *map(prose, notes)])
+    return "\n".join(
+        [
+            prose(heading_of_all([each.machine.bicycle for each in found], model, found[0].machine.set))
+            + "\n",
+            table(["machine", *_HEAD], rows, fold=0),
+            *map(prose, notes),
+        ]
+    )
 
 
 def told_over(
@@ -92,7 +108,7 @@ def told_over(
         told = table([*head, *_HEAD], _rows_over(points, digits))
         if max(map(len, told.split("\n"))) <= WIDTH:
             break
-    text = [heading(machine.bicycle, model, points[0][0]) + changed + "\n", told]
+    text = [prose(heading(machine.bicycle, model, points[0][0]) + changed) + "\n", told]
     return "\n".join([*text, *map(prose, notes)])
 
 
