@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from bikestab import yamltext
-from bikestab.errors import InputError, nearest
+from bikestab.errors import InputError, Mistakes, nearest
 from bikestab.gains import GAINS
 from bikestab.keyed import keyed
 from bikestab.limits import check_product, check_tilt, check_trail, check_value
@@ -23,6 +23,8 @@ from bikestab.presets import preset_names, preset_text
 from bikestab.rider import RIDER, left_behind
 from bikestab.texts import is_there
 from bikestab.units import quantity, units_in
+
+_OWN = {"lam": check_tilt, "sigma": check_trail}  # a design of its own, which not every machine has
 
 
 def _parameter(unit: str, meaning: str, check: str = "", **default: Any) -> Any:
@@ -80,19 +82,21 @@ class Bicycle:
     shape: ClassVar[tuple[int, ...]] = ()  # of each parameter, as in machines.Machines
 
     def __post_init__(self) -> None:
+        mistakes = Mistakes()
         for name, gain in self.gains:
-            check_value(name, gain, "", GAINS[name])
+            with mistakes.kept():
+                check_value(name, gain, "", GAINS[name])
         for p in parameters():
             value = getattr(self, p.name)
-            if value is None and p.name in ("lam", "sigma"):
+            if value is None and p.name in _OWN:
                 continue
-            number = quantity(value, units_in(PAPER[p.name]), key=(p.name,))
-            check_value(p.name, number, p.metadata["check"], PAPER[p.name])
-            object.__setattr__(self, p.name, number)
-        if self.lam is not None:
-            check_tilt(self.lam, ("lam",))
-        if self.sigma is not None:
-            check_trail(self.sigma, ("sigma",))
+            with mistakes.kept():
+                number = quantity(value, units_in(PAPER[p.name]), key=(p.name,))
+                check_value(p.name, number, p.metadata["check"], PAPER[p.name])
+                if p.name in _OWN:
+                    _OWN[p.name](number, (p.name,))
+                object.__setattr__(self, p.name, number)
+        mistakes.tell()
         for i, A, B, C, D, R in (
             ("1", self.A1, self.B1, self.C1, self.D1, self.R1),
             ("2", self.A2, self.B2, self.C2, self.D2, self.R2),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from bikestab.errors import InputError, nearest
+from bikestab.errors import InputError, Mistakes, nearest
 from bikestab.gains import GAINS
 from bikestab.limits import require
 from bikestab.notation import MEASURED, MEIJAARD, OPTIONAL
@@ -38,15 +38,18 @@ def keyed(values: Mapping[Any, Any], paper: Mapping[str, str], name: str) -> Key
     meijaard = _is_meijaard(values, paper)
     notation = {**MEIJAARD, **RIDER} if meijaard else paper
     known = {**notation, **MEASURED, **GAINS}
-    for key in values:
-        if key not in known:
-            other = " (a key of the other notation)" if key in {**MEIJAARD, **RIDER, **paper} else ""
-            raise InputError(
-                f"unknown parameter{other}",
-                key=(str(key),),
-                hint=nearest(str(key), [*known, "name", "source"]),
-            )
-    numbers = {k: quantity(value, units_in(known[k]), key=(k,)) for k, value in values.items()}
+    mistakes, numbers = Mistakes(), {}
+    for key, value in values.items():
+        with mistakes.kept():
+            if key not in known:
+                other = " (a key of the other notation)" if key in {**MEIJAARD, **RIDER, **paper} else ""
+                raise InputError(
+                    f"unknown parameter{other}",
+                    key=(str(key),),
+                    hint=nearest(str(key), [*known, "name", "source"]),
+                )
+            numbers[key] = quantity(value, units_in(known[key]), key=(key,))
+    mistakes.tell()
     if MEASURED.keys() & numbers:
         from bikestab.geometry import in_notation  # most bicycles need no numpy
 

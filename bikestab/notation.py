@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from functools import reduce
 from typing import Any
 
-from bikestab.errors import InputError
+from bikestab.errors import InputError, Mistakes
 from bikestab.limits import check_product, check_tilt, check_value, exceeds, half_digit
 from bikestab.rider import CHECKS as RIDER_CHECKS
 from bikestab.rider import OPTIONAL as RIDER_OPTIONAL
@@ -76,10 +76,14 @@ def two_parts(n: Mapping[str, float]) -> dict[str, Any]:
 
     InputError (with the key) for what no bodies can have.
     """
+    mistakes = Mistakes()
     for key, value in n.items():
-        if key in CHECKS:
-            check_value(key, value, CHECKS[key], MEIJAARD[key] if key in MEIJAARD else RIDER[key])
-    check_tilt(n["lam"], ("lam",))
+        with mistakes.kept():
+            if key in CHECKS:
+                check_value(key, value, CHECKS[key], MEIJAARD[key] if key in MEIJAARD else RIDER[key])
+            if key == "lam":
+                check_tilt(value, ("lam",))
+    mistakes.tell()
     for inertia in INERTIAS:
         xz, xx, zz = (f"{inertia}{axes}" for axes in ("xz", "xx", "zz"))
         if xz in n:

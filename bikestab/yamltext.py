@@ -45,7 +45,7 @@ class Document:
 
     def located(self, error: InputError) -> InputError:
         """The same error with this file and the line of its key in front."""
-        return error.at(f"{self.file}, line {self.line(error.key)}")
+        return error.each(lambda mistake: mistake.at(f"{self.file}, line {self.line(mistake.key)}"))
 
     def replaced(self, key: KeyPath, value: Any) -> Document:
         """With another value at ``key``, whose parents are there as far as they are lists.

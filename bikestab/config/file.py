@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -13,20 +13,19 @@ from bikestab import yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.config.correlation import with_known
 from bikestab.config.expectations import Outcome, outcomes
-from bikestab.config.parts import GRIDS
-from bikestab.config.scanconfig import CheckConfig, Expectation, Plane, ScanConfig
+from bikestab.config.mistakes import UNKNOWN, apart, translated
+from bikestab.config.scanconfig import CheckConfig, ScanConfig
 from bikestab.config.values import Strict
-from bikestab.config.variation import Distribution, Ensemble
-from bikestab.errors import InputError, dotted, nearest
-from bikestab.fields import AXES
+from bikestab.errors import InputError, Mistakes, dotted, together
 from bikestab.formats.kinds import expected
-from bikestab.notation import MEASURED
 from bikestab.presets import preset_names
 from bikestab.rider import flattened
 from bikestab.texts import is_there
 from bikestab.units import shown
 
 Form = TypeVar("Form", bound=Strict)
+_Key = tuple[str | int, ...]
+_STAND_IN = "meijaard2007"  # for a bicycle that cannot be read, so that other mistakes are found
 
 
 def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
@@ -84,7 +83,8 @@ def _read(path: str | Path) -> yamltext.Document:
     return yamltext.read(path)
 
 
-def _parsed(document: yamltext.Document, places: dict[tuple[str | int, ...], str], form: type[Form]) -> Form:
+def _parsed(document: yamltext.Document, places: dict[_Key, str], form: type[Form]) -> Form:
+    mistakes = Mistakes()
     try:
         data = _plain(document.data)
         for name in ("sweep", "ensemble"):
@@ -92,22 +92,55 @@ def _parsed(document: yamltext.Document, places: dict[tuple[str | int, ...], str
                 data[name] = flattened(data[name])  # as --set sweep.rider.m=... builds it
         if form is ScanConfig:
             data.setdefault("output", f"out/{Path(document.file).stem}")
+        typed = {key[0] for key in places}  # in a command, where paths start from the current folder
+        folder = Path(document.file).parent
         if "bicycle" in data:
-            typed = ("bicycle",) in places  # in a command, where paths start from the current folder
-            data["bicycle"] = _load_bicycle(data["bicycle"], "" if typed else Path(document.file).parent)
-        typed = ("ensemble",) in {key[:1] for key in places}
-        folder = "" if typed else Path(document.file).parent
+            named = places.get(("bicycle",), f"{document.file}, line {document.line(('bicycle',))}")
+            with mistakes.kept(), _named(named):
+                data["bicycle"] = _load_bicycle(data["bicycle"], "" if ("bicycle",) in places else folder)
+        if mistakes.found:
+            data["bicycle"] = Bicycle.preset(_STAND_IN)
+            if isinstance(data.get("ensemble"), dict):
+                data["ensemble"].pop("covariance", None)
         if "ensemble" in data:
-            data["ensemble"] = with_known(data["ensemble"], data.get("bicycle"), folder)
+            with mistakes.kept():
+                data["ensemble"] = with_known(
+                    data["ensemble"], data.get("bicycle"), "" if "ensemble" in typed else folder
+                )
         try:
-            return form.model_validate(data)
+            config = form.model_validate(data, context=mistakes)
         except ValidationError as error:
-            raise _translated(error) from None
+            mistakes.found += apart(translated(error, form), mistakes.found)
+        mistakes.tell()
+        return config
     except InputError as error:
-        for key, place in places.items():
-            if (*".".join(map(str, error.key)).split("."),)[: len(key)] == (*map(str, key),):
-                raise error.at(place) from None
-        raise document.located(error) from None
+        by_line = sorted(error.mistakes, key=lambda each: (document.line(each.key), each.problem != UNKNOWN))
+        raise document.located(together([_of_option(each, places) for each in by_line])) from None
+
+
+@contextmanager
+def _named(where: str) -> Iterator[None]:
+    """Say of mistakes in another file where that one is named: it may be in any of many configs."""
+
+    def there(error: InputError) -> InputError:
+        if not error.place:
+            return error
+        link = "" if not error.hint else " " if error.hint.endswith("?") else "; "
+        hint = f"{error.hint}{link}named in {where}"
+        return InputError(error.problem, key=error.key, hint=hint, place=error.place)
+
+    try:
+        yield
+    except InputError as error:
+        raise error.each(there) from None
+
+
+def _of_option(error: InputError, places: dict[_Key, str]) -> InputError:
+    """The mistake with the option that brought it, if one did."""
+    for key, place in places.items():
+        if (*".".join(map(str, error.key)).split("."),)[: len(key)] == (*map(str, key),):
+            return error.at(place)
+    return error
 
 
 def config_schema() -> dict[str, Any]:
@@ -127,70 +160,6 @@ def _load_bicycle(value: object, folder: str | Path) -> object:
     except InputError as error:
         raise error.at(under=("bicycle",)) from None
     return value
-
-
-def _translated(error: ValidationError) -> InputError:
-    """The one mistake to tell of first: a misspelt key explains the missing one."""
-    errors = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
-    first = errors[0]
-    key, context, kind, family = first["loc"], first.get("ctx", {}), first["type"], False
-    if key[:1] == ("grid",) and len(key) > 1 and key[1] in GRIDS:
-        family, key = key[1] == GRIDS[1], (key[0], *key[2:])  # without the tag of the grids' union
-    tag = key[2] if key[:1] in (("grid",), ("sweep",)) and len(key) > 2 else ""
-    if tag:
-        key = key[:2] + key[3:]  # without the tag of the axis' union
-    if kind == "bikestab":
-        return InputError(context["problem"], key=context["key"] or key, hint=context["hint"])
-    if kind == "extra_forbidden":
-        known = ["values"] if tag == "values" else _known(key[:-1], family)
-        return InputError("unknown key", key=key, hint=nearest(str(key[-1]), known))
-    if kind == "missing":
-        return InputError("missing", key=key, hint=f"needed here: {', '.join(_known(key[:-1], family))}")
-    if kind == "literal_error":
-        words = context["expected"].replace(" or ", ", ").replace("'", "").split(", ")
-        return InputError(f"{shown(first['input'])} is not known", key=key, hint=_near(first["input"], words))
-    what = {
-        "int_type": "a whole number",
-        "int_from_float": "a whole number",
-        "string_type": "text",
-        "list_type": "a list",
-        "model_type": "keys with values",
-        "model_attributes_type": "keys with values",
-        "dict_type": "keys with values",
-        "greater_than_equal": f"at least {context.get('ge')}",
-        "less_than_equal": f"at most {context.get('le')}",
-        "too_short": f"a list of at least {context.get('min_length')}",
-        "string_too_short": "text that is not empty",
-    }.get(kind, first["msg"])
-    hint = (
-        f"keys here: {', '.join(_known(key, family))}" if what == "keys with values" else f"allowed: {what}"
-    )
-    if kind == "list_type" and tag == "list":
-        hint += " of values, or {start: ..., stop: ..., num: ...}"
-    return InputError(f"{shown(first['input'])} is not {what}", key=key, hint=hint)
-
-
-def _near(value: object, words: Sequence[str]) -> str:
-    return nearest(value, words) if isinstance(value, str) else f"known: {', '.join(words)}"
-
-
-def _known(key: tuple[str | int, ...], family: bool) -> list[str]:
-    """The keys that may stand at a place of the document."""
-    if not key:
-        return list(ScanConfig.model_fields)
-    if key[0] == "grid":
-        values = ["start", "stop", "num", "values"]
-        if family:
-            return ["x", "y", "V"] if len(key) == 1 else ["name", *values]
-        return [*AXES, "head_angle", "trail"] if len(key) == 1 else values
-    if key[0] == "sweep":
-        return ["parameters of the bicycle"] if len(key) == 1 else ["start", "stop", "num", "values"]
-    if key == ("ensemble",):
-        return ["parameters of the bicycle", *Ensemble.model_fields, "covariance"]
-    if key[0] == "ensemble":
-        return list(Distribution.model_fields)
-    model = Plane if key[0] == "slices" else Expectation
-    return [*model.model_fields, *MEASURED]
 
 
 def _override(document: yamltext.Document, override: str) -> tuple[tuple[str | int, ...], yamltext.Document]:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
+from pydantic_core import PydanticCustomError
+
 from bikestab.bicycle import Bicycle
-from bikestab.config.oneunit import one_unit
+from bikestab.config.oneunit import all_of, in_words, one_unit
 from bikestab.config.values import in_si, json_schema, mistake
 from bikestab.config.variation import VARIED
-from bikestab.errors import InputError, nearest
+from bikestab.errors import InputError, Mistakes, nearest
 from bikestab.geometry import GIVEN, design_given
 from bikestab.notation import MEASURED
 from bikestab.units import quantity
@@ -17,29 +20,42 @@ from bikestab.units import quantity
 _Key = tuple[str | int, ...]
 _ONE = "allowed: one of head_angle, trail, lam, sigma and V"
 _EXPECTED = ("V1", "V2", "within", "stable")
-_AXES = {"head_angle": "lam", "trail": "sigma"}
+MEASURED_AXES = {"head_angle": "lam", "trail": "sigma"}
 
 
-def in_lam_and_sigma(given: Any) -> Any:
+def in_lam_and_sigma(given: Any, found: Mistakes | None = None) -> Any:
     """A config's values with ``lam`` and ``sigma`` in place of MEASURED, in grid, slices and expectations.
 
-    Raises the mistake of two that contradict each other, and of a trail where the wheelbase varies.
+    The mistakes of what contradicts each other, and of a trail where the wheelbase varies, are ``found``
+    along with others, and their parts left as they are; without others they are raised.
     """
     if not isinstance(given, Mapping) or not isinstance(bicycle := given.get("bicycle"), Bicycle):
         return given
-    config = dict(given)
+    config, mistakes = dict(given), Mistakes() if found is None else found
     axes = _named(config.get("grid"))
     if isinstance(grid := config.get("grid"), Mapping) and MEASURED.keys() & grid:
-        config["grid"] = _grid(grid, bicycle, config.get("sweep"))
+        config["grid"] = _grid(grid, bicycle, config.get("sweep"), mistakes)
     for name in ("slices", "expect"):
         if isinstance(entries := config.get(name), list):
-            config[name] = [
-                _plane(entry, axes, (name, i))
-                if axes and name == "slices"
-                else _entry(entry, bicycle, (name, i))
-                for i, entry in enumerate(entries)
-            ]
+            config[name] = [*entries]
+            for i, entry in enumerate(entries):
+                with _kept(mistakes, (name, i)):
+                    planes = axes and name == "slices"
+                    config[name][i] = (
+                        _plane(entry, axes, (name, i)) if planes else _entry(entry, bicycle, (name, i))
+                    )
+    if found is None and mistakes.found:
+        raise all_of([mistake(each.problem, each.hint, each.key) for each in mistakes.found])
     return config
+
+
+@contextmanager
+def _kept(mistakes: Mistakes, key: _Key) -> Iterator[None]:
+    """Keep what a validator raises, at a key unless it has one."""
+    try:
+        yield
+    except PydanticCustomError as error:
+        mistakes.found += in_words(error.context, key)
 
 
 def also_measured(schema: dict[str, Any]) -> None:
@@ -51,7 +67,7 @@ def also_measured(schema: dict[str, Any]) -> None:
 def also_measured_axes(schema: dict[str, Any]) -> None:
     """The same to that of the grid."""
     schema["allOf"] = []
-    for name, other in _AXES.items():
+    for name, other in MEASURED_AXES.items():
         number = json_schema(GIVEN[name])
         ends = {"start": number, "stop": number, "num": {"type": "integer", "minimum": 2}}
         spaced = {"type": "object", "properties": ends, "required": [*ends]}
@@ -94,20 +110,29 @@ def _of_parameters(entry: Mapping[str, Any], others: list[Any], key: _Key) -> di
     }
 
 
-def _grid(grid: Mapping[str, Any], bicycle: Bicycle, sweep: Any) -> dict[str, Any]:
-    if "offset" in grid:
-        raise mistake("the grid has tilt and trail", "give head_angle and trail", ("grid", "offset"))
-    axes = {name: axis for name, axis in grid.items() if name not in MEASURED}
-    for name, other in _AXES.items():
-        if name not in grid:
-            continue
-        if other in grid:
-            raise mistake(f"{other} is given as well", "give one of them", ("grid", name))
-        wheelbase = "w" if bicycle.bodies else "c"
-        if name == "trail" and isinstance(sweep, Mapping) and wheelbase in sweep:
-            raise mistake(f"the sweep has the wheelbase, {wheelbase}", "give grid.sigma", ("grid", name))
-        axes[other] = _axis(grid[name], name, bicycle)
+def _grid(grid: Mapping[str, Any], bicycle: Bicycle, sweep: Any, mistakes: Mistakes) -> dict[str, Any]:
+    """The grid's axes, those that cannot be converted as they are."""
+    axes: dict[str, Any] = {}
+    for name, axis in grid.items():
+        axes[name] = axis
+        with _kept(mistakes, ("grid", name)):
+            if name in MEASURED:
+                _check_axis(name, grid, bicycle, sweep)
+                converted = _axis(axis, name, bicycle)
+                del axes[name]
+                axes[MEASURED_AXES[name]] = converted
     return axes
+
+
+def _check_axis(name: str, grid: Mapping[str, Any], bicycle: Bicycle, sweep: Any) -> None:
+    """Raise the mistake of an axis that no grid has, or not beside what else there is."""
+    if name == "offset":
+        raise mistake("the grid has tilt and trail", "give head_angle and trail", ("grid", name))
+    if (other := MEASURED_AXES[name]) in grid:
+        raise mistake(f"{other} is given as well", "give one of them", ("grid", name))
+    wheelbase = "w" if bicycle.bodies else "c"
+    if name == "trail" and isinstance(sweep, Mapping) and wheelbase in sweep:
+        raise mistake(f"the sweep has the wheelbase, {wheelbase}", "give grid.sigma", ("grid", name))
 
 
 def _axis(axis: Any, name: str, bicycle: Bicycle) -> Any:

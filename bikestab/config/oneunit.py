@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from pydantic_core import PydanticCustomError
@@ -13,6 +14,21 @@ from bikestab.units import united
 def mistake(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> PydanticCustomError:
     """What a validator raises; ``key`` is a whole path, and needed only where pydantic's own is not it."""
     return PydanticCustomError("bikestab", "{problem}", {"problem": problem, "hint": hint, "key": key})
+
+
+def all_of(mistakes: list[PydanticCustomError]) -> PydanticCustomError:
+    """What a validator raises for several mistakes; there is at least one."""
+    first, *others = (dict(each.context or {}) for each in mistakes)
+    return PydanticCustomError("bikestab", "{problem}", {**first, "others": others})
+
+
+def in_words(context: Mapping[str, Any] | None, key: tuple[str | int, ...]) -> list[InputError]:
+    """The mistakes that such an error has in its ``context``; ``key`` where they have none of their own."""
+    first: Mapping[str, Any] = context or {}
+    return [
+        InputError(each["problem"], key=each["key"] or key, hint=each["hint"])
+        for each in (first, *first.get("others", ()))
+    ]
 
 
 def one_unit(given: Any) -> Any:

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Annotated, Any, TypeAlias
 
 import numpy as np
-from pydantic import BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, ValidationInfo, WithJsonSchema, model_validator
 
 from bikestab.bicycle import Bicycle
 from bikestab.config.inplace import IN_PLACE
@@ -31,10 +31,11 @@ from bikestab.config.values import (
     Damping,
     NumberAxis,
     Strict,
+    all_of,
     mistake,
 )
 from bikestab.config.variation import SWEPT, Ensemble, with_units
-from bikestab.errors import InputError, nearest
+from bikestab.errors import InputError, Mistakes, nearest
 from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.identity import identity
@@ -73,8 +74,8 @@ class CheckConfig(Strict):
 
     @model_validator(mode="before")
     @classmethod
-    def _measured(cls, given: Any) -> Any:
-        return in_lam_and_sigma(given)
+    def _measured(cls, given: Any, info: ValidationInfo) -> Any:
+        return in_lam_and_sigma(given, info.context)
 
     @property
     def machine(self) -> Bicycle:
@@ -119,26 +120,19 @@ class ScanConfig(Strict):
 
     @model_validator(mode="before")
     @classmethod
-    def _measured(cls, given: Any) -> Any:
-        return in_lam_and_sigma(given)
+    def _measured(cls, given: Any, info: ValidationInfo) -> Any:
+        return in_lam_and_sigma(given, info.context)
 
     @model_validator(mode="after")
-    def _consistent(self) -> ScanConfig:
+    def _consistent(self, info: ValidationInfo) -> ScanConfig:
+        if info.context and info.context.found:  # what is wrong with it may be known already
+            return self
+        mistakes = Mistakes()
         for i, plane in enumerate(self.slices):
-            name, value = plane.fixed
-            if name not in self.grid.names:
-                raise mistake(
-                    f"the grid has no axis {name!r}", nearest(name, self.grid.names), ("slices", i, name)
-                )
-            first, last = self.grid.ends(name)
-            if not first <= value <= last:
-                hint = f"allowed: {first:g} ... {last:g}"
-                raise mistake(f"{value:g} is outside the grid", hint, ("slices", i, name))
-            for other in self.grid.names:
-                if other != name and self.grid.size(other) == 1:
-                    problem = f"a picture needs a range of {other}, and the grid has one value"
-                    key = self.grid.key(other)
-                    raise mistake(problem, f"leave it out, or give more values in grid.{key}", ("slices", i))
+            with mistakes.kept():
+                self._check_slice(plane, ("slices", i))
+        if mistakes.found:
+            raise all_of([mistake(each.problem, each.hint, each.key) for each in mistakes.found])
         try:
             check_family(self.bicycle, self.grid)
             check_names(
@@ -149,6 +143,22 @@ class ScanConfig(Strict):
         except InputError as error:
             raise mistake(error.problem, error.hint, error.key) from None
         return self
+
+    def _check_slice(self, plane: Plane, key: tuple[str | int, ...]) -> None:
+        """Raise InputError for a plane that the grid does not have, or that would be a line."""
+        name, value = plane.fixed
+        if name not in self.grid.names:
+            hint = nearest(name, self.grid.names)
+            raise InputError(f"the grid has no axis {name!r}", key=(*key, name), hint=hint)
+        first, last = self.grid.ends(name)
+        if not first <= value <= last:
+            hint = f"allowed: {first:g} ... {last:g}"
+            raise InputError(f"{value:g} is outside the grid", key=(*key, name), hint=hint)
+        for other in self.grid.names:
+            if other != name and self.grid.size(other) == 1:
+                problem = f"a picture needs a range of {other}, and the grid has one value"
+                hint = f"leave it out, or give more values in grid.{self.grid.key(other)}"
+                raise InputError(problem, key=key, hint=hint)
 
     @property
     def machine(self) -> Bicycle:

@@ -20,6 +20,7 @@ from pydantic import (
     model_validator,
 )
 
+from bikestab.config.oneunit import all_of as all_of
 from bikestab.config.oneunit import mistake as mistake
 from bikestab.config.oneunit import one_unit
 from bikestab.errors import InputError

@@ -8,11 +8,12 @@ from typing import Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from bikestab.bicycle import PAPER, Bicycle
 from bikestab.config.correlation import check_pairs, correlations_read, pair_of
 from bikestab.config.distributions import Distribution as Distribution
-from bikestab.config.values import Share, Strict, in_si, increasing, mistake
+from bikestab.config.values import Share, Strict, all_of, in_si, increasing, mistake
 from bikestab.draws import correlated
 from bikestab.errors import nearest
 from bikestab.gains import GAINS
@@ -33,10 +34,15 @@ def with_units(given: Any, where: str) -> Any:
     """What a config says of parameters, ``where`` it does, with numbers for texts with units."""
     if not isinstance(given, dict):
         return given
-    return {
-        name: in_si(value, VARIED[name], (where, name)) if name in VARIED else value
-        for name, value in given.items()
-    }
+    found, mistakes = {}, []
+    for name, value in given.items():
+        try:
+            found[name] = in_si(value, VARIED[name], (where, name)) if name in VARIED else value
+        except PydanticCustomError as error:
+            mistakes.append(error)
+    if mistakes:
+        raise all_of(mistakes)
+    return found
 
 
 class Ensemble(Strict):
@@ -70,13 +76,13 @@ class Ensemble(Strict):
     @model_validator(mode="before")
     @classmethod
     def _keys(cls, given: Any) -> Any:
-        for key, value in given.items() if isinstance(given, dict) else ():
-            if key not in cls.model_fields and key not in DRAWN and not isinstance(value, dict):
-                raise mistake(
-                    "unknown key",
-                    nearest(key, [*cls.model_fields, *DRAWN]),
-                    ("ensemble", key),
-                )
+        unknown = [
+            mistake("unknown key", nearest(key, [*cls.model_fields, *DRAWN]), ("ensemble", key))
+            for key, value in (given.items() if isinstance(given, dict) else ())
+            if key not in cls.model_fields and key not in DRAWN and not isinstance(value, dict)
+        ]
+        if unknown:
+            raise all_of(unknown)
         return with_units(given, "ensemble")
 
     @model_validator(mode="after")

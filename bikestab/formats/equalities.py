@@ -43,8 +43,12 @@ class Equalities:
 
     def located(self, error: InputError) -> InputError:
         """The same error with this file, and the line of its key, in front."""
-        entry = self.entries.get(str(error.key[0])) if error.key else None
-        return error.at(f"{self.file}, line {entry.line}" if entry else self.file)
+
+        def place(mistake: InputError) -> str:
+            entry = self.entries.get(str(mistake.key[0])) if mistake.key else None
+            return f"{self.file}, line {entry.line}" if entry else self.file
+
+        return error.each(lambda mistake: mistake.at(place(mistake)))
 
     @property
     def values(self) -> dict[str, float | str]:

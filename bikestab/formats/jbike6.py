@@ -48,8 +48,7 @@ def read(text: str, file: str) -> Found:
     script = parse(text, file)
 
     def located(error: InputError) -> InputError:
-        theirs = [_THEIRS.get(str(part), part) for part in error.key]
-        return script.located(InputError(error.problem, key=theirs, hint=error.hint, place=error.place))
+        return script.located(error.renamed(_THEIRS))
 
     try:
         values, notes = _read(script)

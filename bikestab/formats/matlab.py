@@ -45,8 +45,12 @@ class Script:
 
     def located(self, error: InputError) -> InputError:
         """The same error with this file, and the line of its key, in front."""
-        line = self.lines.get(str(error.key[0])) if error.key else None
-        return error.at(f"{self.file}, line {line}" if line else self.file)
+
+        def place(mistake: InputError) -> str:
+            line = self.lines.get(str(mistake.key[0])) if mistake.key else None
+            return f"{self.file}, line {line}" if line else self.file
+
+        return error.each(lambda mistake: mistake.at(place(mistake)))
 
 
 def parse(text: str, file: str) -> Script:

@@ -54,8 +54,7 @@ def read_rider(path: str | Path) -> Found:
     keys = {ours: theirs for theirs, ours in names.items()}
 
     def located(error: InputError) -> InputError:
-        their = [keys.get(str(part), part) for part in error.key]
-        return found.located(InputError(error.problem, key=their, hint=error.hint, place=error.place))
+        return found.located(error.renamed(keys))
 
     deviations = {names[key]: sd for key, sd in found.deviations.items() if key in names}
     return Found({names[key]: values[key] for key in names}, located, deviations, notes=tuple(notes))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, prose, table
 
-from bikestab.errors import BikestabError
+from bikestab.errors import BikestabError, InputError
 
 if TYPE_CHECKING:
     from bikestab.config.expectations import Edge, Outcome
@@ -73,7 +73,8 @@ def _within(tolerance: float | str) -> str:
 
 def outcome_records(checked: Checked) -> list[dict[str, Any]]:
     if checked.error:
-        return [{"config": checked.name, "error": str(checked.error)}]
+        mistakes = [str(each) for each in _mistakes(checked.error)]
+        return [{"config": checked.name, "error": str(checked.error), "mistakes": mistakes}]
     whose = {"config": checked.name, "bicycle": checked.bicycle, "model": checked.model}
     return [
         {
@@ -84,6 +85,10 @@ def outcome_records(checked: Checked) -> list[dict[str, Any]]:
         }
         for outcome, line in zip(checked.outcomes, checked.lines, strict=True)
     ]  # fmt: skip
+
+
+def _mistakes(error: BikestabError) -> Sequence[BikestabError]:
+    return error.mistakes if isinstance(error, InputError) else [error]
 
 
 def _over(outcome: Outcome) -> dict[str, Any]:
@@ -165,8 +170,8 @@ def suite_of(checked: Checked) -> Suite:
     from bikestab.export.junit import Case, Suite
 
     if checked.error:
-        words = str(checked.error)
-        unusable = Case("config", words.replace("\n", "; "), words, checked.seconds, True)
+        message, each = str(checked.error).replace("\n", "; "), map(str, _mistakes(checked.error))
+        unusable = Case("config", message, "\n".join(each), checked.seconds, True)
         return Suite(checked.name, [unusable], checked.seconds)
     cases = []
     for number, (outcome, line) in enumerate(zip(checked.outcomes, checked.lines, strict=True)):

@@ -196,7 +196,10 @@ SCHEMAS: dict[str, Schema] = {
                 edges=some(_EDGE, "the ends that are expected, as that interval has them"),
                 holds=flag("whether it is so"), problem=words("what is not, in words; empty where it is so"),
             ),
-            record("a file that cannot be used", config=words("the file"), error=words("why")),
+            record(
+                "a file that cannot be used", config=words("the file"), error=words("why"),
+                mistakes=some(TEXTS, "all that is wrong, each with file, line, key and what is allowed"),
+            ),
             text="an expectation, or a file that cannot be used",
         )
     ),

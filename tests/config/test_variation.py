@@ -150,7 +150,7 @@ NORMAL = "m1: {normal: [80, 8]}, samples: 100"
         ("sweep: {m1: [70, 60]}", "sweep.m1: 60.0 does not come after 70.0", "values that increase"),
         ("sweep: {m1: {values: [7, 7]}}", "sweep.m1: 7.0 does not come after 7.0", "values that increase"),
         ("sweep: {m1: [60, heavy]}", "sweep.m1[1]: 'heavy' is not a number", "a number"),
-        ("sweep: {m1: {stat: 3}}", "sweep.m1.stat: unknown key", "did you mean 'start'?"),
+        ("sweep: {m1: {stat: 3, stop: 4, num: 2}}", "sweep.m1.stat: unknown key", "did you mean 'start'?"),
         ("sweep: {m1: {start: 60, stop: 70}}", "sweep.m1.num: missing", "start, stop, num"),
         ("sweep: {m1: {start: 60, stop: 70, num: 1}}", "sweep.m1.num: 1 is not", "at least 2"),
         ("sweep: {m1: {start: 60, stop: 60, num: 2}}", "sweep.m1: stop = 60.0 is not above", "start < stop"),
