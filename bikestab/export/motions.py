@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 
@@ -38,13 +38,14 @@ def motion_blocks(found: Motion) -> Iterator[Block]:
     yield {"t": found.t, **states, "yaw": found.yaw, "x": found.x, "y": found.y, "y_front": found.y_front}
 
 
-def against_columns(found: Against) -> Columns:
-    """MODES with the parameter in front."""
-    return {found.name: ("float64", ""), **MODES}
+def against_columns(found: Against, beside: Collection[str] = ()) -> Columns:
+    """MODES with the parameter, and others ``beside`` it, in front."""
+    return {**dict.fromkeys((*beside, found.name), ("float64", "")), **MODES}
 
 
-def against_blocks(found: Against) -> Iterator[Block]:
-    """The rows of MODES for each value of the parameter, which is in the first column."""
+def against_blocks(found: Against, beside: Mapping[str, float] | None = None) -> Iterator[Block]:
+    """The rows of MODES for each value of the parameter, which is in the first column with those beside."""
     for value, modes in zip(found.values, found.modes, strict=True):
         for block in modes_blocks(modes):
-            yield {**block, found.name: np.full(len(block["V"]), value)}
+            front = {**(beside or {}), found.name: value}
+            yield {**block, **{name: np.full(len(block["V"]), each) for name, each in front.items()}}

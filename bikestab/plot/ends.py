@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
-from bikestab.plot.sidelabels import Line, label_right, lines_for
+from bikestab.plot.sidelabels import Curve, Line, label_curves, lines_for
 
 Run = list[tuple[Mapping[str, Any], Mapping[str, Any]]]  # answers, each with one of its intervals
 Answers = Sequence[Mapping[str, Any]]  # as region.answers gives them: one for each design
@@ -22,6 +24,9 @@ AXES = {
     "lam": LABELS["lam"], "sigma": LABELS["sigma"], "trail": LABELS["trail"], "offset": LABELS["offset"],
     "head_angle_deg": "head angle [°]",
 }  # fmt: skip
+_LOWER, _UPPER, _SIDE = 2.2, 1.2, 0.6  # widths of the lines of V1 and V2, and between them at a run's end
+_ARROW, _SIZE = "$\u2191$", 9  # where there is no upper limit
+_ARROWS, _AWAY = 12, 0.04  # along the axis; above V1, as a share of the axis
 _BEYOND = 1.25  # where what is unbounded ends in the picture, of the largest end
 
 
@@ -53,9 +58,20 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "
 
 def _entries(machines: Sequence[tuple[str, Answers]], ends: Sequence[float | None], over: bool) -> list[Any]:
     """What the legend says: of bars, whose words are beside them, nothing but of what was drawn at random."""
-    entries: list[Any] = [entry("V₁", color="0.3", lw=2.2), entry("V₂", color="0.3", lw=1)] if over else []
+    several = len(machines) > 1
+    above, below = (": stable above", ": stable below") if several else ("", "")
+    entries: list[Any] = []
+    if over:
+        entries.append(entry(f"V₁{above}", color="0.3", lw=_LOWER))
+        if any(V is not None for V in ends[1::2]):
+            entries.append(entry(f"V₂{below}", color="0.3", lw=_UPPER))
     if over and None in ends:
-        entries.append(Patch(facecolor="0.85", label="up to the frame: no upper limit"))
+        words = "no upper limit"
+        entries.append(
+            entry(words, color="0.3", marker=_ARROW, ms=_SIZE, lw=0)
+            if several
+            else Patch(facecolor="0.85", label=f"up to the frame: {words}")
+        )
     if any("spread" in answer for _, answers in machines for answer in answers):
         entries.append(entry("90 % of the machines", color="0.3", lw=1, marker="|"))
     return entries
@@ -64,32 +80,75 @@ def _entries(machines: Sequence[tuple[str, Answers]], ends: Sequence[float | Non
 def _over(
     ax: Axes, machines: Sequence[tuple[str, Answers]], axis: str, lines: Sequence[Line], top: float
 ) -> None:
-    """V1 (thick) and V2 (thin) against one quantity, shaded between; each run of intervals of one kind."""
-    last = []
-    for (_, answers), line in zip(machines, lines, strict=True):
-        place = (math.nan, 0.0)
-        for run in _runs(answers):
-            x = [answer[axis] for answer, _ in run]
-            V1 = [interval["V1"] for _, interval in run]
-            V2 = [top if interval["V2"] is None else interval["V2"] for _, interval in run]
-            ax.fill_between(x, V1, V2, color=line.color, alpha=0.15, lw=0)
-            ax.plot(x, V1, color=line.color, ls=line.ls, lw=2.2)
-            ax.plot(x, [V if top > V else math.nan for V in V2], color=line.color, ls=line.ls, lw=1.0)
-            if not x[-1] <= place[0]:
-                place = (x[-1], V1[-1])
-        for answer in answers:
-            for x, y in _nine_tenths(answer, answer[axis], 0.0, top):
-                ax.plot(y, x, "_-", color=line.color, lw=1, ms=7, clip_on=False)
-        last.append(place)
+    """V1 (thick) and V2 (thin) against one quantity; each run of intervals of one kind.
+
+    Of one machine it is shaded between them; of several, whose shades would mix, each end has its name, and
+    arrows where there is no upper one.
+    """
     values = [answer[axis] for _, answers in machines for answer in answers]
+    several, curves = len(machines) > 1, []
+    for (name, answers), line in zip(machines, lines, strict=True):
+        runs = [_Run(*_drawn(run, axis)) for run in _runs(answers)]
+        for x, V1, V2 in runs:
+            ax.plot(x, V1, color=line.color, ls=line.ls, lw=_LOWER)
+            ax.plot(x, V2, color=line.color, ls=line.ls, lw=_UPPER)
+            for k in (0, -1) if several else ():
+                upper = V2[k] if np.isfinite(V2[k]) else top
+                if min(values) < x[k] < max(values):
+                    ax.plot([x[k]] * 2, [V1[k], upper], color=line.color, ls=line.ls, lw=_SIDE)
+            if not several:
+                ax.fill_between(x, V1, np.where(np.isfinite(V2), V2, top), color=line.color, alpha=0.15, lw=0)
+        if several:
+            _mark_open(ax, runs, line, (min(values), max(values)), top)
+            curves += _named(name, runs, line, max(values))
+        for answer in answers:
+            for speeds, at in _nine_tenths(answer, answer[axis], 0.0, top):
+                ax.plot(at, speeds, "_-", color=line.color, lw=1, ms=7, clip_on=False)
     ax.set_xlim(min(values), max(values))
     ax.set_ylim(0, top)
     ax.set_ylabel(LABELS["V"])
-    if len(machines) == 1:
-        return  # its name is the title's
-    names = [name if x == x else f"{name}: never" for (name, _), (x, _) in zip(machines, last, strict=True)]
-    ends = [(max(values), 0.0) if x != x else (x, V) for x, V in last]
-    label_right(ax, names, [x for x, _ in ends], [y for _, y in ends], [line.color for line in lines])
+    if several:  # else its name is the title's
+        label_curves(ax, curves)
+
+
+class _Run(NamedTuple):
+    """Values along the axis and the ends there [m/s], V2 NaN where there is none."""
+
+    x: Floats
+    V1: Floats
+    V2: Floats
+
+
+def _drawn(run: Run, axis: str) -> tuple[Floats, Floats, Floats]:
+    ends = [(interval["V1"], interval["V2"]) for _, interval in run]
+    V1, V2 = np.array(ends, dtype=float).T
+    return np.array([answer[axis] for answer, _ in run]), V1, V2
+
+
+def _named(name: str, runs: Sequence[_Run], line: Line, last: float) -> list[Curve]:
+    """Both ends of all runs as curves with gaps between these, and a name for each."""
+    if not runs:
+        return [Curve(f"{name}: never", np.array([last]), np.zeros(1), line.color)]
+    x = np.concatenate([[*run.x, run.x[-1]] for run in runs])
+    ends = [
+        np.concatenate([[*V, np.nan] for V in each]) for each in zip(*[run[1:] for run in runs], strict=True)
+    ]
+    return [
+        Curve(name, x, V, line.color, what)
+        for what, V in zip(("V₁", "V₂"), ends, strict=True)
+        if np.isfinite(V).any()
+    ]
+
+
+def _mark_open(ax: Axes, runs: Sequence[_Run], line: Line, ends: tuple[float, float], top: float) -> None:
+    """Arrows above V1 where there is no V2."""
+    step = (ends[1] - ends[0]) / _ARROWS
+    for x, V1, V2 in runs:
+        open_ = np.isnan(V2)
+        at = [v for v in ends[0] + step * (0.5 + np.arange(_ARROWS)) if x[0] <= v <= x[-1]]
+        at = [v for v in at or [0.5 * (x[0] + x[-1])] if open_[np.argmin(np.abs(x - v))]]
+        y = np.interp(at, x, V1) + _AWAY * top
+        ax.plot(at, y, marker=_ARROW, ms=_SIZE, color=line.color, lw=0)
 
 
 def _runs(answers: Answers) -> list[Run]:
@@ -130,8 +189,8 @@ def _bars(ax: Axes, machines: Sequence[tuple[str, Answers]], lines: Sequence[Lin
                 textcoords="offset points", fontsize=8, ha="right" if far else "left",
                 va="bottom" if side < 0 else "top",
             )  # fmt: skip
-        for x, y in _nine_tenths(answers[0], row, 0.1, top):
-            ax.plot(x, y, "|-", color="0.2", lw=1, ms=7)
+        for speeds, at in _nine_tenths(answers[0], row, 0.1, top):
+            ax.plot(speeds, at, "|-", color="0.2", lw=1, ms=7)
         if not intervals:
             ax.annotate("no stable speed", (0, row), (6, 0), textcoords="offset points", va="center")
     ax.set_yticks(range(len(machines)), [short(name) for name, _ in machines], parse_math=False)

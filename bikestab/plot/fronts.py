@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -13,7 +14,7 @@ from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title
 from bikestab.plot.lines import legend_below
 from bikestab.plot.settings import own_settings
-from bikestab.plot.sidelabels import label_right, lines_for
+from bikestab.plot.sidelabels import Curve, label_curves, lines_for
 
 
 @own_settings()
@@ -22,7 +23,7 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]]) -> Figure:
     lines = lines_for(len(machines))
     figure = Figure(figsize=(6.2, 4.4), layout="constrained")
     ax = figure.add_subplot()
-    names, ends, own_drawn = [], [], False
+    curves, own_drawn = [], False
     for (name, _, best), line in zip(machines, lines, strict=True):
         points = [(d["width"], d["growth_rate"]) for d in best.pareto]
         ax.plot(
@@ -33,15 +34,14 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]]) -> Figure:
             mark = (own["width"], own["growth_rate"])
             ax.plot(*mark, "*", ms=13, color=line.color, mec="black", mew=0.8, zorder=4)
             points, own_drawn = points or [mark], True
-        names.append(name if best.pareto else f"{name}: no front")
-        ends.append(points[0] if points else (0.0, 0.0))
+        x, y = np.array(points[::-1] or [(0.0, 0.0)]).T
+        curves.append(Curve(name if best.pareto else f"{name}: no front", x, y, line.color))
     ax.axhline(0, color="k", lw=0.8, zorder=1)
     ax.set_xlabel(f"width of the stable interval up to {machines[0][1].V_max:g} m/s [m/s]  (wider →)")
     ax.set_ylabel("growth rate where it is judged [s⁻¹]  (↓ decays faster)")
     ax.set_xlim(left=0)
     ticks_inside(ax)
-    x, y = zip(*ends, strict=True)
-    label_right(ax, names, x, y, [line.color for line in lines])
+    label_curves(ax, curves)
     star = Line2D([], [], marker="*", ms=12, color="0.6", mec="black", ls="", label="own design")
     legend_below(figure, [star] if own_drawn else [])
     set_title(ax, "Width-decay fronts: no other design is better in both")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -40,35 +41,17 @@ def draw_locus(
 ) -> Figure:
     """The eigenvalues at tilt λ [rad] and trail σ for speeds from ``start`` to ``stop`` [m/s]."""
     table = exact_table(bicycle, lam, sigma, model=model)
-    met = follow(table, start).coalescences
-    near = np.outer(met, 1 + np.array([-1e-4, -1e-6, -1e-9, 1e-9, 1e-6, 1e-4])).ravel()
-    V = np.union1d(np.linspace(start, stop, _SAMPLES), near[(near > start) & (near < stop)])
-    modes = follow(table, V)
+    modes = sampled(table, start, stop)
     figure = Figure(figsize=(5.6, 5.0))
     ax = figure.add_subplot()
-    s = modes.eigenvalues
-    growth = s.real.max(axis=0)
-    left = max(float(s.real.min()), -3 * max(float(np.abs(growth).max()), float(s.imag.max()), 1.0))
-    right = max(float(growth.max()), -0.1 * left)
-    high = 1.08 * max(float(np.abs(s.imag).max()), 0.2 * (right - left))
-    ax.set_xlim(left - 0.05 * (right - left), right + 0.08 * (right - left))
-    ax.set_ylim(-high, high)
-    ax.axvspan(ax.get_xlim()[0], 0, color=BAND, lw=0, zorder=0)
-    ax.axvline(0, color="k", lw=0.8, zorder=1)
-    ax.axhline(0, color="0.6", lw=0.7, zorder=1)
-    ax.set_xlabel("real part [s⁻¹]")
-    ax.set_ylabel("imaginary part [rad/s]")
-    ticks_inside(ax)
-    parts = _parts(modes)
+    left = locus_axes(ax, [modes])
+    parts = parts_of(modes)
     drawn = {name: STYLES[name] for name in STYLES if name in {name for name, _, _ in parts}}
     handles: list[Any] = [entry(name, color=color, lw=width) for name, (color, width) in drawn.items()]
     handles.append(entry("speed [m/s]", color="0.2", marker=".", ls="none"))
-    handles.append(Line2D([], [], color="0.2", marker=">", ms=6, ls="none", label="faster"))
-    handles.append(Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="dies out"))
-    away = "" if left <= float(s.real.min()) else f"; left of {left:.3g} not shown".replace("-", "−")
-    words = f"λ = {lam:.4g} rad, σ = {sigma:.4g}{remarks(bicycle, model)}; {_stable(table)}{away}"
+    words = f"λ = {lam:.4g} rad, σ = {sigma:.4g}{remarks(bicycle, model)}; {_stable(table)}{left}"
     set_title(ax, f"{short(bicycle.name)}: root locus for {start:g} to {stop:g} m/s", words)
-    arrange_plane(figure, ax, None, legend_below(figure, handles, handlelength=2))
+    arrange_plane(figure, ax, None, legend_below(figure, [*handles, *common_entries()], handlelength=2))
     room = Room(ax)
     room.curve([0, 0], ax.get_ylim())
     for name, s_part, _ in parts:
@@ -81,8 +64,44 @@ def draw_locus(
         sides = _SIDES if s_dot.imag else _ABOVE
         beside(room, ax, f"{V_dot:g}", s_dot.real, s_dot.imag, sides=sides, **style)
     for _, s_part, _ in parts:
-        _arrowheads(ax, room, s_part)
+        draw_arrowheads(ax, room, s_part)
     return figure
+
+
+def sampled(table: ExactTable, start: float, stop: float) -> Modes:
+    """Modes at speeds that are close to each other, and closer where eigenvalues meet."""
+    met = follow(table, start).coalescences
+    near = np.outer(met, 1 + np.array([-1e-4, -1e-6, -1e-9, 1e-9, 1e-6, 1e-4])).ravel()
+    return follow(table, np.union1d(np.linspace(start, stop, _SAMPLES), near[(near > start) & (near < stop)]))
+
+
+def locus_axes(ax: Axes, shown: Sequence[Modes], *, upper: bool = False) -> str:
+    """The complex plane around all that is shown, or its ``upper`` half; in words what is left out."""
+    growth = [modes.eigenvalues.real.max(axis=0) for modes in shown]
+    least = min(float(modes.eigenvalues.real.min()) for modes in shown)
+    fastest = max(float(np.abs(modes.eigenvalues.imag).max()) for modes in shown)
+    left = max(
+        least, -(1 if upper else 3) * max(*(float(np.abs(rate).max()) for rate in growth), fastest, 1.0)
+    )
+    right = max(*(float(rate.max()) for rate in growth), -0.1 * left)
+    high = 1.08 * max(fastest, 0.2 * (right - left))
+    ax.set_xlim(left - 0.05 * (right - left), right + 0.08 * (right - left))
+    ax.set_ylim(0 if upper else -high, high)
+    ax.axvspan(ax.get_xlim()[0], 0, color=BAND, lw=0, zorder=0)
+    ax.axvline(0, color="k", lw=0.8, zorder=1)
+    ax.axhline(0, color="0.6", lw=0.7, zorder=1)
+    ax.set_xlabel("real part [s⁻¹]")
+    ax.set_ylabel("imaginary part [rad/s]")
+    ticks_inside(ax)
+    return "" if left <= least else f"; left of {left:.3g} not shown".replace("-", "−")
+
+
+def common_entries() -> list[Any]:
+    """What the legend says of arrowheads and of the shaded half."""
+    return [
+        Line2D([], [], color="0.2", marker=">", ms=6, ls="none", label="faster"),
+        Patch(facecolor=BAND, edgecolor="0.6", lw=0.5, label="dies out"),
+    ]
 
 
 def _stable(table: ExactTable) -> str:
@@ -95,7 +114,7 @@ def _stable(table: ExactTable) -> str:
     return f"stable {', '.join(ends)}" if ends else "never stable"
 
 
-def _parts(modes: Modes) -> list[tuple[str, Any, Floats]]:
+def parts_of(modes: Modes) -> list[tuple[str, Any, Floats]]:
     """Each branch cut where its name changes: name, eigenvalues, speeds."""
     return [
         (str(names[part[0]]), s[part], modes.V[part])
@@ -130,7 +149,7 @@ def _dots(
     return dots
 
 
-def _arrowheads(ax: Axes, room: Room, s: Any) -> None:
+def draw_arrowheads(ax: Axes, room: Room, s: Any) -> None:
     """Arrowheads along a curve, the way it goes as the speed grows, where they cover no dot and no number."""
     places = room.at(s.real, s.imag)
     inside = np.all((places > 4) & (places < room.size - 4), axis=1)

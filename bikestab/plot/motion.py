@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from bikestab.model import Floats
 from bikestab.motion import Motion
 from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
-from bikestab.plot.sidelabels import label_right
+from bikestab.plot.sidelabels import Curve, Line, label_curves, lines_for
 
-_REAR, _FRONT = "#0072b2", "#d55e00"  # and of what they do: roll and steer
+_REAR, _FRONT = Line("#0072b2", "-"), Line("#d55e00", (0, (5, 1.5)))  # and of what they do: roll and steer
 _SMALL = 0.5  # rad: of larger angles the linear equations say little
+_LARGE = 2 * _SMALL  # of several machines one that moves more leaves the picture, not to flatten the others
+Drawn = tuple[str, Floats, Floats, Line]
 
 
 @own_settings()
@@ -22,30 +26,70 @@ def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
     """A machine by name, and what pushed it: states by name, in rad and rad/s."""
     figure = Figure(figsize=(6.2, 5.4), layout="constrained")
     top, road = figure.subplots(2, 1)
-    pairs = (("roll", found.states[0], _REAR), ("steer", found.states[1], _FRONT))
-    for ax, x, lines in (
-        (top, found.t, pairs),
-        (road, found.x, (("rear wheel", found.y, _REAR), ("front wheel", found.y_front, _FRONT))),
-    ):
-        for _, y, color in lines:
-            ax.plot(x, y, color=color, lw=1.8)
-        ax.axhline(0, color="0.5", lw=0.7, zorder=1)
-        ax.set_xlim(float(x[0]), float(x[-1]))
-        low, high = ax.get_ylim()
-        ax.set_ylim((high, low) if ax is road else (low, high))  # the road as seen from above
-        ticks_inside(ax)
-        names, ends, colors = zip(*((text, float(y[-1]), color) for text, y, color in lines), strict=True)
-        label_right(ax, names, [float(x[-1])] * len(ends), ends, colors)
+    roll, steer = found.states[:2]
+    _curves(top, [("roll", found.t, roll, _REAR), ("steer", found.t, steer, _FRONT)])
+    paths = [("rear wheel", found.x, found.y, _REAR), ("front wheel", found.x, found.y_front, _FRONT)]
+    _curves(road, paths, down=True)
     top.set_xlabel("time [s]")
     top.set_ylabel("to the right [rad]")
     road.set_xlabel("along the road [m]")
     road.set_ylabel("to the right [m]")
-    units = {True: "rad/s", False: "rad"}
-    pushed = ", ".join(
-        f"{key.replace('_', ' ')} = {value:g} {units[key.endswith('rate')]}" for key, value in push.items()
-    )
     large = float(np.abs(found.states[:2]).max()) > _SMALL
     doubt = [f"beyond some {_SMALL:g} rad the linear equations do not hold"] if large else []
-    set_title(top, f"{short(name)} at {found.V:g} m/s after a push: {pushed}", *doubt)
+    set_title(top, f"{short(name)} at {found.V:g} m/s after a push: {_pushed(push)}", *doubt)
     set_title(road, "Paths of the wheels on the road, from above; sideways enlarged")
     return figure
+
+
+@own_settings()
+def draw_motions(machines: Sequence[tuple[str, Motion]], push: Mapping[str, float], name: str = "") -> Figure:
+    """The same of several machines, a curve each for roll, steer, rear wheel; ``name`` is common to all.
+
+    Raises InputError for more machines than there are lines that differ.
+    """
+    figure = Figure(figsize=(6.2, 7.4), layout="constrained")
+    roll, steer, road = figure.subplots(3, 1)
+    lines = lines_for(len(machines))
+    most = [float(np.abs(found.states[:2]).max()) for _, found in machines]
+    calm = [size <= max(_LARGE, min(most)) for size in most]
+    speeds = {found.V for _, found in machines}
+    names = [each if len(speeds) == 1 else f"{each} at {found.V:.4g} m/s" for each, found in machines]
+    for ax, x, y in (
+        (roll, [m.t for _, m in machines], [m.states[0] for _, m in machines]),
+        (steer, [m.t for _, m in machines], [m.states[1] for _, m in machines]),
+        (road, [m.x for _, m in machines], [m.y for _, m in machines]),
+    ):
+        _curves(ax, list(zip(names, x, y, lines, strict=True)), calm, down=ax is road)
+    for ax, what in ((roll, "roll"), (steer, "steer")):
+        ax.set_xlabel("time [s]")
+        ax.set_ylabel(f"{what} to the right [rad]")
+    road.set_xlabel("along the road [m]")
+    road.set_ylabel("rear wheel to the right [m]")
+    what = f"at {machines[0][1].V:g} m/s " if len(speeds) == 1 else ""
+    doubt = [f"beyond some {_SMALL:g} rad the linear equations do not hold"] if max(most) > _SMALL else []
+    words = f"{f'{short(name)} ' if name else ''}{what}after a push: {_pushed(push)}"
+    set_title(roll, words if name else words.capitalize(), *doubt)
+    set_title(road, "Path of the rear wheel on the road, from above; sideways enlarged")
+    return figure
+
+
+def _curves(ax: Axes, drawn: Sequence[Drawn], within: Sequence[bool] = (), *, down: bool = False) -> None:
+    """Curves with their names; the limits are those of the ones ``within``, and of all without it."""
+    for _, x, y, line in drawn:
+        ax.plot(x, y, color=line.color, ls=line.ls, lw=1.8)
+    ax.axhline(0, color="0.5", lw=0.7, zorder=1)
+    ax.set_xlim(0.0, max(float(x[-1]) for _, x, _, _ in drawn))
+    shown = [y for i, (_, _, y, _) in enumerate(drawn) if not within or within[i]]
+    low, high = min(float(y.min()) for y in shown), max(float(y.max()) for y in shown)
+    margin = 0.05 * (high - low) or 0.1
+    low, high = low - margin, high + margin
+    ax.set_ylim((high, low) if down else (low, high))  # the road as seen from above
+    ticks_inside(ax)
+    label_curves(ax, [Curve(name, x, y, line.color) for name, x, y, line in drawn])
+
+
+def _pushed(push: Mapping[str, float]) -> str:
+    units = {True: "rad/s", False: "rad"}
+    return ", ".join(
+        f"{key.replace('_', ' ')} = {value:g} {units[key.endswith('rate')]}" for key, value in push.items()
+    )

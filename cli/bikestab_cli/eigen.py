@@ -67,8 +67,9 @@ def command(
 
     At one tilt and trail, the bicycle's own where none is given. Each mode is followed continuously.
     Files are written in place of the table, and named on stdout. Several --bicycle and several values of
-    --set are one table, and one picture of their growth rates, a curve each. JSON has for each what vrange
-    says of a design and, at the speeds V, four branches with name, re and im at each.
+    --set are one table, and one picture, a curve each: of their growth rates, or with --locus or --push.
+    JSON has for each what vrange says of a design and, at the speeds V, four branches with name, re and im
+    at each.
 
     The pair that crosses the imaginary axis at an end of the stable speeds is weave, the real eigenvalue that
     crosses zero at one is capsize, and each keeps its name to where it meets another. What makes no end is
@@ -78,8 +79,9 @@ def command(
     beside another of that name.
 
     --shapes tells roll and steer in each mode, as phasors; --push the exact motion after a push, the sum of
-    the modes, with the path of the wheels on the road; --over the eigenvalues at one speed against any
-    parameter of the bicycle, or lam, head_angle, sigma, trail, offset. Signs are those of Meijaard et al.
+    the modes, with the path of the wheels on the road; --over the eigenvalues at one speed against any one
+    or two parameters of the bicycle, or lam, head_angle, sigma, trail, offset: against the one with more
+    values, for each of the other's. Signs are those of Meijaard et al.
     (2007): positive to the right.
 
     \b
@@ -93,6 +95,7 @@ def command(
       bikestab eigen --bicycle meijaard2007 --shapes --at 5
       bikestab eigen --bicycle meijaard2007 --push 'roll_rate=0.5' --at 5 -o push.png
       bikestab eigen --bicycle meijaard2007 --over delta=0:5:11 --at 4
+      bikestab eigen --bicycle meijaard2007 --over mB=60:110:11 --over delta=0:5:3 --at 5 -o loads.png
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
     _check_picture(view, speeds, locus, output)
@@ -100,10 +103,6 @@ def command(
     machines = machines_chosen(bicycle_name, delta, changes, given)
     for machine in machines:
         check_varied(machine.bicycle, view.over, changes, delta)
-    if output and len(machines) > 1 and (view.kind or locus):
-        raise click.BadParameter(
-            "this picture is of one machine", param_hint="--locus" if locus else "--output"
-        )
     lacks = lacking(machines, [*given, *view.over])
     if view.kind:
         answer = viewed(machines, lacks, given, view, model)

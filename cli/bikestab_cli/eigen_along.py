@@ -2,30 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 from bikestab_cli.chosen import Given, design_chosen
 from bikestab_cli.designless import told_without, with_design
+from bikestab_cli.eigen_answer import Answer
 from bikestab_cli.eigen_words import Followed, told, told_all
 from bikestab_cli.options import told_as_options
-from bikestab_cli.several import Chosen
+from bikestab_cli.several import Chosen, told_apart
 
 if TYPE_CHECKING:
     from bikestab.model import Model
-
-
-class Answer(NamedTuple):
-    """What is told of machines: words, and of each with a design its results; rows of a table, and a picture.
-
-    ``ranges`` of a parameter are those of every machine, and None where no parameter varies.
-    """
-
-    text: str
-    results: list[list[dict[str, Any]]]
-    rows: Callable[[], tuple[Any, Any]]
-    draw: Callable[[], Any]
-    ranges: list[list[dict[str, Any]]] | None = None
 
 
 def along(
@@ -72,15 +60,20 @@ def _result(found: Followed) -> dict[str, Any]:
 
 def _drawn(found: Sequence[Followed], start: float, stop: float, model: Model, locus: bool) -> Any:
     designs = [(each.machine.bicycle, each.design["lam"], each.design["sigma"]) for each in found]
+    common, names = told_apart([each.machine for each in found])
+    machines = [(name, *design, model) for name, design in zip(names, designs, strict=True)]
+    if locus and len(found) > 1:
+        from bikestab.plot.loci import draw_loci
+
+        return draw_loci(machines, start, stop, common)
     if locus:
         from bikestab.plot.locus import draw_locus
 
         return draw_locus(*designs[0], start, stop, model=model)
-    if len(found) == 1:
-        from bikestab.plot.modes import draw_modes
+    if len(found) > 1:
+        from bikestab.plot.growth import draw_growth
 
-        return draw_modes(*designs[0], start, stop, model=model)
-    from bikestab.plot.growth import draw_growth
+        return draw_growth(machines, start, stop, common)
+    from bikestab.plot.modes import draw_modes
 
-    named = [(each.machine.words, *design, model) for each, design in zip(found, designs, strict=True)]
-    return draw_growth(named, start, stop)
+    return draw_modes(*designs[0], start, stop, model=model)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import click
-from bikestab_cli.options import SPEED_VALUE, Quantity, over_option
+from bikestab_cli.options import SPEED_VALUE, Quantity, over_option, told_as_options
 
 from bikestab.errors import InputError
 from bikestab.units import ANGLE, RATE, TIME, quantity
@@ -52,9 +53,11 @@ def view_options(function: Callable[..., Any]) -> Callable[..., Any]:
     @functools.wraps(function)
     def command(**arguments: Any) -> Any:
         view = View(*(arguments.pop(name) for name in View._fields))
-        if sum(map(bool, (view.shapes, view.push, view.over))) > 1 or len(view.over) > 1:
-            problem = "give one of --shapes, --push and --over, and this once"
-            raise click.UsageError(problem, click.get_current_context())
+        context = click.get_current_context()
+        if sum(map(bool, (view.shapes, view.push, view.over))) > 1:
+            raise click.UsageError("give one of --shapes, --push and --over", context)
+        if len(view.over) > 2:
+            raise click.UsageError("--over is for one or two parameters; more are --set", context)
         _check_used(view)
         if not view.until > 0:
             raise click.BadParameter("allowed: above 0", param_hint="--until")
@@ -91,3 +94,15 @@ def _check_used(view: View) -> None:
     ):
         if not used and context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT:
             raise click.UsageError(f"{option} is for {what}", context)
+
+
+@contextmanager
+def told_as_views(**others: str) -> Iterator[None]:
+    """Tell of the library's mistakes in its arguments as of these options, or of ``others``."""
+    try:
+        with told_as_options(V="--at", **others):
+            yield
+    except click.BadParameter as error:
+        if error.param_hint == "--t":
+            error.param_hint = "--until"
+        raise

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
 from bikestab_cli.eigen_words import eigenvalue_table
@@ -62,8 +62,10 @@ def _unit(name: str) -> str:
     return "rad/s" if name.endswith("rate") else "rad"
 
 
-def told_against(machine: Chosen, found: Against, V: float, unit: str, model: Model) -> str:
-    """A row of eigenvalues for each value of the parameter."""
+def told_against(
+    machine: Chosen, found: Against, V: float, unit: str, model: Model, beside: Collection[str]
+) -> str:
+    """A row of eigenvalues for each value of the parameter, with what is set and ``beside`` it."""
     every = range(0, len(found.values), -(-len(found.values) // _MOST))
     rows = [(f"{found.values[i]:.6g}", found.modes[i]) for i in every]
     words = f"{found.name} [{unit}] at {V:.6g} m/s"
@@ -73,7 +75,7 @@ def told_against(machine: Chosen, found: Against, V: float, unit: str, model: Mo
     words += f"\nstable: {ends} {unit}" if ends else "\nstable: nowhere between these"
     changed = f" ({machine.changes})" if machine.set else ""
     table_ = eigenvalue_table(f"{found.name}\n[{unit}]", rows)
-    return prose(f"{heading(machine.bicycle, model, [found.name])}{changed}\n{words}\n\n{table_}")
+    return prose(f"{heading(machine.bicycle, model, [found.name, *beside])}{changed}\n{words}\n\n{table_}")
 
 
 def _whole(machine: Chosen, design: Any, model: Model, parts: list[str]) -> str:

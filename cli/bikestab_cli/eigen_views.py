@@ -2,32 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Sequence
+from itertools import chain
+from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.chosen import Given, design_chosen
 from bikestab_cli.designless import told_without, with_design
-from bikestab_cli.eigen_along import Answer
-from bikestab_cli.eigen_view_options import View
-from bikestab_cli.eigen_view_words import told_against, told_motion, told_shapes
-from bikestab_cli.several import Chosen
+from bikestab_cli.eigen_against import against
+from bikestab_cli.eigen_answer import Answer, Shown
+from bikestab_cli.eigen_view_options import View, told_as_views
+from bikestab_cli.eigen_view_words import told_motion, told_shapes
+from bikestab_cli.several import Chosen, told_apart
 
 if TYPE_CHECKING:
     from bikestab.model import Model
 
 _TIMES = 501  # of a motion
-
-
-class Shown(NamedTuple):
-    """What was found of one machine: its record, its words, its table's columns and rows, and its picture."""
-
-    record: dict[str, Any]
-    text: str
-    columns: Any
-    blocks: Callable[[], Iterator[Any]]
-    draw: Callable[[], Any]
 
 
 def viewed(
@@ -36,37 +27,63 @@ def viewed(
     """What is shown at one speed of the machines that do not lack a design."""
     able = with_design(machines, lacks)
     found = [_shown(machine, given, view, model) for machine in able]
+    every = [each for own in found for each in own]
 
     def rows() -> tuple[Any, Any]:
         from bikestab.export.tables import of_machines
 
-        blocks = [
-            (machine.bicycle.name, machine.changes, each.blocks())
-            for machine, each in zip(able, found, strict=True)
+        tables = [
+            (machine.bicycle.name, machine.changes, chain.from_iterable(each.blocks() for each in own))
+            for machine, own in zip(able, found, strict=True)
         ]
-        return of_machines(found[0].columns, blocks)
+        return of_machines(found[0][0].columns, tables)
 
-    text = "\n\n\n".join([*(each.text for each in found), *told_without(machines, lacks)])
-    results = [each.record.get("all", [each.record]) for each in found]
+    text = "\n\n\n".join([*(each.text for each in every), *told_without(machines, lacks)])
+    results = [[record for each in own for record in each.results] for own in found]
     ranges = None
     if view.kind == "over":
-        each_ = iter(found)
-        ranges = [[] if lack else next(each_).record["ranges"] for lack in lacks]
-    return Answer(text, results, rows, lambda: found[0].draw(), ranges)
+        rest = iter(found)
+        ranges = [[] if lack else [part for each in next(rest) for part in each.ranges] for lack in lacks]
+    return Answer(text, results, rows, lambda: _drawn(every, view), ranges)
 
 
-def _shown(machine: Chosen, given: Given, view: View, model: Model) -> Shown:
-    """What is asked for, of one machine."""
+def _drawn(found: Sequence[Shown], view: View) -> Any:
+    """The picture: of one machine all its eigenvalues or angles, of several a curve or a row each."""
+    common, names = told_apart([each.machine for each in found])
+    (first, *others), each = found, [(name, own.found) for name, own in zip(names, found, strict=True)]
+    if view.shapes:
+        from bikestab.plot.shapes import draw_shapes
+
+        return draw_shapes(each, common)
+    if view.push:
+        from bikestab.plot.motion import draw_motion, draw_motions
+
+        if others:
+            return draw_motions(each, view.push, common)
+        return draw_motion(first.machine.words, first.found, view.push)
+    from bikestab.plot.against import draw_against
+    from bikestab.plot.axes import label_of
+    from bikestab.plot.growth import draw_growth_against
+    from bikestab.variants import parameter_of
+
+    parameter, V = parameter_of(first.machine.bicycle, first.found.name), float(view.at or 0)
+    if others:
+        return draw_growth_against(each, V, label_of(parameter), common)
+    return draw_against(first.machine.words, first.found, V, parameter)
+
+
+def _shown(machine: Chosen, given: Given, view: View, model: Model) -> list[Shown]:
+    """What is asked for, of one machine: once, or for each value of the second of two parameters."""
     if view.kind == "over":
-        return _against(machine, given, view, model)
+        return against(machine, given, view, model)
     bicycle = machine.bicycle
     lam, sigma = design_chosen(bicycle, given)
     V = _speed(bicycle, lam, sigma, view, model)
     from bikestab.records import design_record
 
     design = design_record(lam, sigma, bicycle)
-    with _told():
-        return (_shapes if view.shapes else _motion)(machine, design, V, view, model)
+    with told_as_views():
+        return [(_shapes if view.shapes else _motion)(machine, design, V, view, model)]
 
 
 def _shapes(machine: Chosen, design: Any, V: float, view: View, model: Model) -> Shown:
@@ -74,11 +91,6 @@ def _shapes(machine: Chosen, design: Any, V: float, view: View, model: Model) ->
     from bikestab.motion import shapes
 
     found = shapes(machine.bicycle, V, design["lam"], design["sigma"], model=model)
-
-    def draw() -> Any:
-        from bikestab.plot.shapes import draw_shapes
-
-        return draw_shapes(machine.words, found)
 
     modes = [
         {
@@ -91,7 +103,7 @@ def _shapes(machine: Chosen, design: Any, V: float, view: View, model: Model) ->
     ]  # fmt: skip
     record = {**design, "at": V, "shapes": modes}
     text = told_shapes(machine, design, found, model)
-    return Shown(record, text, SHAPES, lambda: shapes_blocks(found), draw)
+    return Shown(machine, found, [record], text, SHAPES, lambda: shapes_blocks(found))
 
 
 def _motion(machine: Chosen, design: Any, V: float, view: View, model: Model) -> Shown:
@@ -103,49 +115,10 @@ def _motion(machine: Chosen, design: Any, V: float, view: View, model: Model) ->
     times = np.linspace(0, view.until, _TIMES)
     found = motion(machine.bicycle, V, view.push, times, design["lam"], design["sigma"], model=model)
 
-    def draw() -> Any:
-        from bikestab.plot.motion import draw_motion
-
-        return draw_motion(machine.words, found, view.push)
-
     columns = next(motion_blocks(found))
     record = {**design, "at": V, "push": view.push, "motion": {k: x.tolist() for k, x in columns.items()}}
     text = told_motion(machine, design, found, view.push, model)
-    return Shown(record, text, MOTION, lambda: motion_blocks(found), draw)
-
-
-def _against(machine: Chosen, given: Given, view: View, model: Model) -> Shown:
-    from bikestab.against import modes_against
-    from bikestab.export.motions import against_blocks, against_columns
-    from bikestab.records import interval_records, modes_record, verdict_record
-    from bikestab.speeds import intervals_of
-    from bikestab.variants import parameter_of
-
-    ((name, values),) = view.over.items()
-    if view.at is None:
-        raise click.UsageError("--over needs a speed: give --at", click.get_current_context())
-    with _told(**{name: "--over"}):
-        others = {key: value[0] if isinstance(value, list) else value for key, value in given.items()}
-        found = modes_against(machine.bicycle, name, values, view.at, others, model=model)
-    parameter = parameter_of(machine.bicycle, name)
-    records = []
-    for value, design, table, modes in zip(
-        found.values.tolist(), found.designs, found.tables, found.modes, strict=True
-    ):
-        stable = intervals_of(table)
-        ends = {"intervals": interval_records(stable), **verdict_record(stable)}
-        records.append({"over": {name: value}, **design, **ends, **modes_record(modes)})
-
-    def draw() -> Any:
-        from bikestab.plot.against import draw_against
-
-        return draw_against(machine.words, found, float(view.at or 0), parameter)
-
-    text = told_against(machine, found, view.at, parameter.unit, model)
-    ranges = [{"at": view.at, "start": {name: start}, "stop": {name: stop}} for start, stop in found.stable]
-    return Shown(
-        {"all": records, "ranges": ranges}, text, against_columns(found), lambda: against_blocks(found), draw
-    )
+    return Shown(machine, found, [record], text, MOTION, lambda: motion_blocks(found))
 
 
 def _speed(bicycle: Any, lam: float, sigma: float, view: View, model: Model) -> float:
@@ -161,16 +134,3 @@ def _speed(bicycle: Any, lam: float, sigma: float, view: View, model: Model) -> 
         raise click.UsageError(problem, click.get_current_context())
     _, a, b = max(bounded)
     return float((a + b) / 2)
-
-
-@contextmanager
-def _told(**others: str) -> Iterator[None]:
-    from bikestab_cli.options import told_as_options
-
-    try:
-        with told_as_options(V="--at", **others):
-            yield
-    except click.BadParameter as error:
-        if error.param_hint == "--t":
-            error.param_hint = "--until"
-        raise

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bikestab_cli.compare_schema import COMPARE, WITHIN
 from bikestab_cli.eigen_schema import EIGEN
 from bikestab_cli.proof_schema import CERTIFY, LARGEST, PAIR
 from bikestab_cli.shapes import (
@@ -87,33 +88,12 @@ _FIRST = record(
     slope=named(maybe(""), "its derivatives by parameter; empty: none"),
     reason=words("why there is none; else empty"),
 )  # fmt: skip
-_SIDE = record(
-    "one of the two", name=words("as it was typed"), bicycle=words("its name"), model=MODEL,
-    delta=num("steering damping [kg m²/s]"), intervals=INTERVALS,
-    design=either(record("a design", **DESIGN), NULL, text="what is compared; null: it has none of its own"),
-)  # fmt: skip
-_CHANGE = record(
-    "one quantity of both", what=words("which"), unit=words("its unit"), A=maybe("of A"), B=maybe("of B"),
-    change=maybe("B - A"), percent=maybe("of A"), A_kind=MAYBE_KIND, B_kind=MAYBE_KIND,
-    within={"type": ["boolean", "null"],
-    "description": "whether it is within what is asked; null: not asked"},
-)  # fmt: skip
-_REGION = record(
-    "the stable regions", box=named(PAIR, "the ends of λ, σ and V, or of other parameters of the grids"),
-    designs=some({"type": "integer"}, "how many along λ and σ, or the others"),
-    A=num("volume of A's [rad m/s, or the others' units]"), B=num("of B's"),
-    difference=num("of the symmetric difference"),
-    union=num("of the union"), share=num("the difference as a share of the union"),
-    mean=num("distance of the stable speeds, on the mean of designs with any [m/s]"),
-    within=_CHANGE["properties"]["within"],
-)  # fmt: skip
 _ROBUST = record(
     "the design with the largest ball of stable machines", design=_JUDGED,
     radius=num("of the ball, in standard deviations"),
     deviations=named(NUMBERS, "these, by parameter, in SI units"),
     nearest=named(NUMBERS, "the nearest machine that is not stable, by parameter"),
 )  # fmt: skip
-_WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")
 _SPEED_OR_UNBOUNDED = ({"const": "unbounded"}, NUMBERS)
 _EDGE = record(
     "an end of stable speeds", name={"enum": ["V1", "V2"], "description": "which"},
@@ -187,7 +167,7 @@ SCHEMAS: dict[str, Schema] = {
                 model=MODEL, over=named(NUMBERS, "other parameters' values, in SI units"), **DESIGN,
                 expected=record(
                     "as in the config", ("V1", "V2", "within", "stable"), V1=num("[m/s]"),
-                    V2=either(NUMBERS, {"const": "unbounded"}, text="[m/s]"), within=_WITHIN,
+                    V2=either(NUMBERS, {"const": "unbounded"}, text="[m/s]"), within=WITHIN,
                     stable={"const": "never"},
                 ),
                 intervals=INTERVALS,
@@ -203,16 +183,7 @@ SCHEMAS: dict[str, Schema] = {
             text="an expectation, or a file that cannot be used",
         )
     ),
-    "compare": answer(
-        record(
-            "the comparison", A=_SIDE, B=_SIDE, parameters=some(_CHANGE, "those that differ"),
-            ends=some(_CHANGE, "of the stable speeds"), growth_rate=some(_CHANGE, "in their middle"),
-            region=_REGION,
-            within=either(_WITHIN, NULL, text="what is asked"),
-            holds={"type": ["boolean", "null"],
-            "description": "whether all is within; null: nothing is asked"},
-        )
-    ),
+    "compare": COMPARE,
     "scan": answer(
         record(
             "a config", config=words("the file"), bicycle=words("its bicycle"),

@@ -44,6 +44,24 @@ class Chosen(NamedTuple):
         return f"{self.bicycle.name}\n{self.changes}".strip()
 
 
+def told_apart(machines: Sequence[Chosen]) -> tuple[str, list[str]]:
+    """What machines have in common that a picture's title says, and what tells each from the others there."""
+    names = {machine.bicycle.name for machine in machines}
+    if len(names) == 1 and all(machine.set for machine in machines):
+        return names.pop(), [_with_units(machine) for machine in machines]
+    return "", [machine.words for machine in machines]
+
+
+def _with_units(machine: Chosen) -> str:
+    """What is set, for a picture."""
+    from bikestab.variants import FRONT, parameter_of
+
+    known = {**machine.bicycle.notation, **FRONT}
+    units = {name: parameter_of(machine.bicycle, name).unit for name in machine.set if name in known}
+    parts = (f"{name} = {value:.4g} {units.get(name, '')}" for name, value in machine.set.items())
+    return ", ".join(part.removesuffix(" 1").strip() for part in parts)
+
+
 def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> Values:
     values: Values = {}
     for text in texts:

@@ -18,7 +18,15 @@ from bikestab_cli.options import (
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
-from bikestab_cli.several import Chosen, Values, check_varied, machines_chosen, record_of, several_machines
+from bikestab_cli.several import (
+    Chosen,
+    Values,
+    check_varied,
+    machines_chosen,
+    record_of,
+    several_machines,
+    told_apart,
+)
 from bikestab_cli.spreads import spreads, with_spreads
 from bikestab_cli.vrange_over import show_over
 from bikestab_cli.vrange_words import Found, told_all, told_one
@@ -112,8 +120,9 @@ def command(
         from bikestab.plot.ends import draw_ends
         from bikestab.plot.files import save
 
-        drawn = [(each.machine.words, with_spreads(each.answers, each.spreads)) for each in shown]
-        save(draw_ends(drawn, axis), Path(output))
+        common, names = told_apart([each.machine for each in shown])
+        answers = [with_spreads(each.answers, each.spreads) for each in shown]
+        save(draw_ends([*zip(names, answers, strict=True)], axis, name=common), Path(output))
         files["picture"] = output
     if as_json:
         print_json(record_of(machines, model, [_results(each) for each in found], files))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.parameters import MOST_VALUES
-from bikestab_cli.several import Chosen, record_of
+from bikestab_cli.several import Chosen, record_of, told_apart
 from bikestab_cli.spreads import spreads, with_spreads
 from bikestab_cli.vrange_words import told_over
 
@@ -90,14 +90,14 @@ def _draw(
     along = max(over, key=lambda name: len(over[name]))
     axis = {"head_angle": "head_angle_deg"}.get(along, along) if len(over[along]) > 1 else ""
     curves: dict[str, list[dict[str, Any]]] = {}
-    for machine, each, spreads_ in zip(machines, points, known, strict=True):
+    name, apart = told_apart(machines) if len(machines) > 1 else (machines[0].words, [""])
+    for machine, own_name, each, spreads_ in zip(machines, apart, points, known, strict=True):
         answers = with_spreads([answer for _, answer in each], spreads_)
         for (point, _), answer in zip(each, answers, strict=True):
             others = [parameter_of(machine.bicycle, name) for name in point if name != along or not axis]
             values = [f"{p.name} = {point[p.name]:.4g} {p.unit}".removesuffix(" 1") for p in others]
-            whose = [machine.words] if len(machines) > 1 or not values else []
+            whose = [own_name] if own_name else [] if values else [machine.words]
             own = {} if axis in AXES else {along: point[along]}
             curves.setdefault(", ".join([*whose, *values]), []).append({**answer, **own})
     label = "" if axis in AXES else label_of(parameter_of(machines[0].bicycle, along))
-    name = machines[0].words if len(machines) == 1 else ""
     save(draw_ends(list(curves.items()), axis, label, name), Path(output))

@@ -606,3 +606,13 @@ def test_a_picture_has_the_deviations(bikestab):
                 assert any({end["low"], end["high"]} <= set(line) for line in lines)
     assert bikestab(*args, "-o", "a.svg")[0] == 0
     assert "<!-- 90 % of the machines -->" in Path("a.svg").read_text(encoding="utf-8")
+
+
+def test_files_of_one_name_are_told_apart(bikestab):
+    text = preset_text("meijaard2007")
+    Path("race.yaml").write_text(text, "utf-8")
+    Path("touring.yaml").write_text(text.replace("c: 0.08 ", "c: 0.07 "), "utf-8")
+    three = ("--bicycle", "race.yaml", "--bicycle", "touring.yaml", "--bicycle", "meijaard2007")
+    found = json.loads(bikestab("vrange", *three, "--json")[1])
+    names = ["meijaard2007 (race.yaml)", "meijaard2007 (touring.yaml)", "meijaard2007"]
+    assert [each["bicycle"] for each in found["results"]] == names

@@ -61,10 +61,64 @@ def test_intervals_of_other_kinds_are_not_joined():
         assert np.abs(np.diff(line.get_ydata())).max(initial=0) < 12
 
 
+def test_curves_on_each_other_have_one_label_with_all_names():
+    """Else the last one drawn would hide the others; its dashes let them be seen."""
+    (_, *design), (_, *other) = presets("meijaard2007", "sharp1971")
+    figure = draw_growth([("race", *design), ("touring", *design), ("motorcycle", *other)], 0, 10)
+    assert names_in(figure) == ["race, touring", "motorcycle"]
+    styles = [line.get_linestyle() for line in figure.axes[0].lines if line.get_linewidth() == 3]
+    assert styles == ["-", "--", "--"]  # of matplotlib's names, "--" is all that is not solid
+    near = [(name, design[0].replaced({"mB": mass}), *design[1:]) for name, mass in (("a", 85), ("b", 88))]
+    assert names_in(draw_growth(near, 0, 10)) == ["a", "b"]
+
+
+def test_each_end_of_several_machines_has_its_name_and_nothing_is_shaded():
+    """Shades that lie on each other mix; damping moves V1 and leaves V2, where that is."""
+    bike = Bicycle.preset("meijaard2007")
+    machines = [
+        (
+            f"delta = {delta}",
+            stable_speeds(bike.with_delta(delta), None, np.linspace(0.005, 0.15, 60), nearest=False),
+        )
+        for delta in (0, 2)
+    ]
+    figure = draw_ends(machines, "sigma")
+    assert names_in(figure) == ["V₁: delta = 0", "V₂: delta = 0, delta = 2", "V₁: delta = 2"]
+    assert not figure.axes[0].collections
+    assert draw_ends(machines[:1], "sigma").axes[0].collections
+
+
+def test_arrows_where_there_is_no_upper_limit():
+    machines = [
+        (name, stable_speeds(bike, lam, np.linspace(0, 0.02, 21), nearest=False))
+        for name, bike, lam, _, _ in presets("meijaard2007", "kooijman2011")
+    ]
+    arrows = [line for line in draw_ends(machines, "sigma").axes[0].lines if line.get_marker() == "$\u2191$"]
+    open_ = [a["sigma"] for a in machines[1][1] if a["intervals"] and a["intervals"][0]["V2"] is None]
+    assert [len(line.get_xdata()) > 0 for line in arrows] == [False, True]
+    assert all(min(open_) <= x <= max(open_) for x in arrows[1].get_xdata())
+
+
+def test_neighbours_differ_in_greyscale():
+    dashes = [line.ls for line in lines_for(MOST)]
+    assert len({*dashes[:6]}) == 6
+    assert all(len({*dashes[start : start + 3]}) == 3 for start in range(MOST - 2))
+
+
 def test_too_many_curves():
     assert len({*lines_for(MOST)}) == MOST
     with pytest.raises(InputError, match=f"allowed: {MOST}"):
         lines_for(MOST + 1)
+
+
+@given(st.lists(st.tuples(st.floats(0, 1), st.floats(0.01, 0.1)), min_size=1, max_size=9))
+def test_labels_of_several_rows_do_not_overlap(boxes):
+    wanted, heights = np.array(boxes).T
+    places = spread(wanted, heights)
+    order = np.argsort(wanted, kind="stable")
+    half = 0.5 * heights[order]
+    assert np.all(np.diff(places[order]) >= half[1:] + half[:-1] - 1e-12)
+    assert places.mean() == pytest.approx(wanted.mean(), abs=0.5)
 
 
 @given(st.lists(st.floats(0, 1), max_size=12))
