@@ -9,6 +9,7 @@ from numbers import Real
 from typing import Any, TypeAlias
 
 from bikestab.errors import InputError, nearest
+from bikestab.limits import LEAST, MOST, MOST_SPEED, MOST_TRAIL
 
 Size: TypeAlias = "tuple[int, int] | float"  # a quotient of whole numbers, or a double
 Units: TypeAlias = Mapping[str, Size]  # of one dimension: how many SI units each is
@@ -51,6 +52,7 @@ def quantity(value: object, units: Units, *, key: tuple[str | int, ...] = ()) ->
 
     Raises InputError for anything else, naming the units that are understood.
     """
+    typed = value
     if isinstance(value, str):
         value = _read(value, units, key)
     if type(value).__name__ in ("bool", "bool_") or not isinstance(value, Real):
@@ -59,9 +61,38 @@ def quantity(value: object, units: Units, *, key: tuple[str | int, ...] = ()) ->
         number = float(value)
     except OverflowError:
         number = math.inf
+    if isinstance(typed, (str, int)):  # which stand for numbers that no double holds
+        if math.isinf(number):
+            raise InputError(f"{shown(typed)} is out of range", key=key, hint=_limits(units))
+        if number == 0 and isinstance(typed, str) and _telling(typed):
+            hint = f"allowed: 0, or from {LEAST:g} on"
+            raise InputError(f"{shown(typed)} is too small: it would be 0", key=key, hint=hint)
     if not math.isfinite(number):
         raise InputError(f"{shown(value)} is not finite", key=key, hint=_allowed(units))
     return number
+
+
+def no_double(text: str) -> bool:
+    """Whether a number in decimals is too large for a double, or so small that it would be 0."""
+    number = float(text)
+    return math.isinf(number) or (number == 0 and _telling(text))
+
+
+def _telling(text: str) -> bool:
+    """Whether a number in decimals has a digit other than 0 before its exponent."""
+    match = _NUMBER.match(text.strip())
+    return bool(match and match[0].lower().partition("e")[0].strip("+-.0"))
+
+
+def _limits(units: Units) -> str:
+    """How large a number of a dimension may be, wherever one is typed."""
+    if units == ANGLE:
+        return "allowed: between -90deg and 90deg, both excluded"
+    if units == SPEED:
+        return f"allowed: 0 ... {MOST_SPEED:g} m/s"
+    if not units:
+        return f"allowed: up to {MOST:g}, of sigma up to {MOST_TRAIL:g}"
+    return f"allowed: up to {MOST:g} {next(iter(units))}"
 
 
 def united(values: Sequence[Any]) -> list[Any]:

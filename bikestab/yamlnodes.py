@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, NoReturn
 
 from bikestab.errors import InputError
-from bikestab.units import shown
+from bikestab.units import no_double, shown
 
 MOST_DEPTH = 32
 MOST_VALUES = 200_000  # of a text, those behind aliases counted each time
@@ -77,7 +77,8 @@ def compose(text: str, file: str) -> Node:
 def resolved(text: str) -> Any:
     """What plain text stands for in YAML 1.2: a number, true, false, null, or itself.
 
-    Raises ValueError for a number of too many digits.
+    A number that no double holds stays as it is typed, so that it can be told of. Raises ValueError for one
+    of too many digits.
     """
     if text in _WORDS:
         return _WORDS[text]
@@ -88,7 +89,7 @@ def resolved(text: str) -> Any:
         raise ValueError(f"a number of {len(text)} characters")
     if whole:
         return int(text, 0) if text[:2] in ("0o", "0x") else int(text)
-    if _FLOAT.fullmatch(text):
+    if _FLOAT.fullmatch(text) and not (text[-1] not in "fFnN" and no_double(text)):
         return float(text.lower().replace(".inf", "inf").replace(".nan", "nan"))
     return text
 

@@ -81,7 +81,7 @@ def test_nonsense_is_no_number(nonsense, units):
         quantity(nonsense, units)
 
 
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, np.float64("nan"), "1e400", 10**400])
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, np.float64("nan")])
 def test_not_finite(value):
     with pytest.raises(InputError, match="is not finite"):
         quantity(value, PURE)
@@ -137,7 +137,7 @@ def test_units_are_exact_to_the_nearest_double(unit):
 @pytest.mark.parametrize(
     ("text", "value"),
     [
-        ("0e999999999mm", 0.0), ("1e-999999999mm", 0.0), ("4.9e-324mm", 0.0), ("5e-321mm", 5e-324),
+        ("0e999999999mm", 0.0), ("5e-321mm", 5e-324),
         ("1.7e308mm", 1.7e305), (".5mm", 0.0005), ("-5.mm", -0.005), ("+.5e+1mm", 0.005),
         (f"{'1' * 500}e-500mm", 1 / 9000),
     ],
@@ -148,8 +148,20 @@ def test_units_of_extreme_numbers(text, value):
 
 @pytest.mark.parametrize("text", ["1e400mm", "1e999999999mm", f"{'9' * 5000}mm"])
 def test_units_of_numbers_that_are_too_large(text):
-    with pytest.raises(InputError, match="is not finite"):
+    with pytest.raises(InputError, match="is out of range"):
         quantity(text, LENGTH)
+
+
+@pytest.mark.parametrize("text", ["1e-999999999mm", "4.9e-324mm", "-1e-400", f"0.{'0' * 400}1"])
+def test_numbers_that_would_become_zero(text):
+    with pytest.raises(InputError, match="is too small: it would be 0"):
+        quantity(text, LENGTH)
+
+
+@pytest.mark.parametrize("value", ["1e400", 10**400, -(10**400)])
+def test_numbers_that_no_double_holds(value):
+    with pytest.raises(InputError, match=r"is out of range\nallowed: up to 1e\+09"):
+        quantity(value, PURE)
 
 
 @pytest.mark.parametrize(

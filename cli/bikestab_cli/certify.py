@@ -13,9 +13,6 @@ from bikestab_cli.options import (
     DEFAULT_BICYCLE,
     FILE,
     NAME,
-    SPEED_ENDS,
-    Ends,
-    Quantity,
     check_files,
     json_option,
     load_bicycle,
@@ -24,6 +21,7 @@ from bikestab_cli.options import (
 )  # fmt: skip
 from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.progress import progress
+from bikestab_cli.quantities import SPEED_ENDS, Ends, Quantity
 from bikestab_cli.tolerances import DESIGN, tolerances_of, with_design
 
 from bikestab.errors import InputError

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import click
-from bikestab_cli.options import (
+from bikestab_cli.options import told_as_options
+from bikestab_cli.quantities import (
     ANGLE_ENDS,
     ANGLE_VALUE,
     ANGLES,
@@ -18,7 +19,6 @@ from bikestab_cli.options import (
     TRAIL_VALUE,
     TRAILS,
     Ends,
-    told_as_options,
 )
 
 if TYPE_CHECKING:

@@ -6,14 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.options import (
-    ANGLE_ENDS,
     FILE,
-    LENGTH_ENDS,
     PICTURE,
-    SPEED_ENDS,
-    SPEED_VALUE,
-    TRAIL_ENDS,
-    Ends,
     check_files,
     free_option,
     json_option,
@@ -22,6 +16,7 @@ from bikestab_cli.options import (
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.quantities import ANGLE_ENDS, LENGTH_ENDS, SPEED_ENDS, SPEED_VALUE, TRAIL_ENDS, Ends
 from bikestab_cli.several import Values, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import Ends
+from bikestab_cli.quantities import Ends
 
 from bikestab.aside import meanwhile
 

@@ -11,14 +11,9 @@ from bikestab_cli.designless import end_of_all, lacking, results_of_all
 from bikestab_cli.eigen_along import along
 from bikestab_cli.eigen_view_options import View, view_options
 from bikestab_cli.eigen_views import viewed
-from bikestab_cli.options import (
-    FILE,
-    PICTURE,
-    SPEEDS,
-    check_files,
-    json_option,
-)
+from bikestab_cli.options import FILE, PICTURE, check_files, json_option
 from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.quantities import SPEEDS
 from bikestab_cli.several import Values, check_varied, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:

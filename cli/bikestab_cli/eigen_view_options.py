@@ -8,7 +8,8 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import click
-from bikestab_cli.options import SPEED_VALUE, Quantity, over_option, told_as_options
+from bikestab_cli.options import over_option, told_as_options
+from bikestab_cli.quantities import SPEED_VALUE, Quantity
 
 from bikestab.errors import InputError
 from bikestab.units import ANGLE, RATE, TIME, quantity

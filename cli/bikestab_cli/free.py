@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import click
 from bikestab_cli.design_words import VANISHES
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
-from bikestab_cli.options import Ends, check_files, told_as_options
+from bikestab_cli.options import check_files, told_as_options
 from bikestab_cli.output import heading, print_json, prose, table, tell_file, within
+from bikestab_cli.quantities import Ends
 from bikestab_cli.several import Chosen, record_of
 
 from bikestab.files import to_stdout

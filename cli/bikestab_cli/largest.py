@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
-from bikestab_cli.options import Ends, told_as_options
+from bikestab_cli.options import told_as_options
 from bikestab_cli.output import heading, print_json, prose, tell_file
+from bikestab_cli.quantities import Ends
 from bikestab_cli.several import Chosen, record_of
 
 from bikestab.errors import InputError

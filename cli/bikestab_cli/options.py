@@ -10,77 +10,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
-from bikestab_cli.parameters import (
-    MOST_VALUES,
-    deviations_given,
-    ends_of,
-    over_ends,
-    over_values,
-    values_given,
-)
+from bikestab_cli.parameters import deviations_given, over_ends, over_values, values_given
+from bikestab_cli.quantities import Quantity
 from bikestab_cli.riders import rider_option, with_its_rider
 
 from bikestab.errors import InputError
 from bikestab.files import PICTURES
-from bikestab.units import ANGLE, DAMPING, LENGTH, PURE, SPEED, Units, quantity
+from bikestab.units import DAMPING
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
 
 F = TypeVar("F", bound=Callable[..., Any])
-Ends = tuple[float, float]
 DEFAULT_BICYCLE = "dikarev1981"
-
-
-class Quantity(click.ParamType):
-    """A number with or without a unit."""
-
-    def __init__(self, name: str, units: Units) -> None:
-        self.name, self.units = name, units
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        try:
-            number = quantity(value, self.units)
-        except InputError as error:
-            self.fail(f"{error.problem}; {error.hint}", param, ctx)
-        return number
-
-
-class QuantityRange(Quantity):
-    """One such number, or START:STOP:NUM."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
-        if isinstance(value, list):
-            return value
-        parts = str(value).split(":")
-        if len(parts) == 1:
-            return [super().convert(value, param, ctx)]
-        if len(parts) != 3:
-            self.fail(f"{value!r} is neither a number nor START:STOP:NUM, e.g. 0.05:0.3:6", param, ctx)
-        start, stop = (super(QuantityRange, self).convert(part, param, ctx) for part in ends_of(parts[:2]))
-        if parts[2].strip() == "1" and start == stop:
-            return [start]
-        if not parts[2].strip().isdecimal() or not 2 <= int(parts[2]) <= MOST_VALUES:
-            self.fail(
-                f"{parts[2]!r} in {value!r} is not a number of values from 2 to {MOST_VALUES}", param, ctx
-            )
-        num = int(parts[2])
-        return [start + (stop - start) * i / (num - 1) for i in range(num - 1)] + [stop]
-
-
-class QuantityEnds(Quantity):
-    """START:STOP, or one number that is both."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Ends:
-        if isinstance(value, tuple):
-            return value
-        parts = str(value).split(":")
-        if len(parts) > 2:
-            self.fail(f"{value!r} is neither a number nor START:STOP", param, ctx)
-        start, stop = (
-            super(QuantityEnds, self).convert(part, param, ctx) for part in ends_of([parts[0], parts[-1]])
-        )
-        return start, stop
 
 
 class Name(click.ParamType):
@@ -110,12 +52,6 @@ class Name(click.ParamType):
 
 
 NAME, FILE, PICTURE = Name(), Name(of_file=True), Name(of_file=True, of_picture=True)
-_KINDS: tuple[tuple[str, Units], ...] = (
-    ("angle", ANGLE), ("number", PURE), ("speed", SPEED), ("length", LENGTH),
-)  # fmt: skip
-ANGLE_VALUE, TRAIL_VALUE, SPEED_VALUE, LENGTH_VALUE = (Quantity(*kind) for kind in _KINDS)
-ANGLES, TRAILS, SPEEDS, LENGTHS = (QuantityRange(*kind) for kind in _KINDS)
-ANGLE_ENDS, TRAIL_ENDS, SPEED_ENDS, LENGTH_ENDS = (QuantityEnds(*kind) for kind in _KINDS)
 
 
 def machine_options(function: F) -> F:
@@ -176,9 +112,13 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON i
 def load_bicycle(name: str, delta: float | None) -> Bicycle:
     """The bicycle that --bicycle and --delta name; its warnings go to stderr."""
     from bikestab.bicycle import Bicycle
+    from bikestab.presets import preset_names
 
     if delta is not None and delta < 0:
         raise click.BadParameter(f"{delta:g} is negative; allowed: 0 and above", param_hint="--delta")
+    if "," in name and all(part.strip() in preset_names() for part in name.split(",")):
+        problem = f"{name!r} is a list; give --bicycle once for each, where a command takes several"
+        raise click.BadParameter(problem, param_hint="--bicycle")
     bicycle = Bicycle.load(name)
     with told_as_options():
         bicycle = with_its_rider(bicycle)

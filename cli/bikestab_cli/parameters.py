@@ -8,7 +8,7 @@ import click
 
 from bikestab.errors import InputError, nearest
 from bikestab.limits import MOST
-from bikestab.units import quantity, united, units_in
+from bikestab.units import Units, quantity, united, units_in
 
 MOST_VALUES = 1_000_000
 
@@ -22,6 +22,9 @@ def values_given(_: click.Context, option: click.Parameter, texts: tuple[str, ..
         try:
             values[name.strip()] = parameter(name.strip(), number)
         except InputError as error:
+            if number.count(",") > 1 or ("," in number and error.hint.startswith("allowed")):
+                problem = f"{text!r} has several values, where one is taken"
+                raise click.BadParameter(problem, param=option) from None
             raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
     return values
 
@@ -66,7 +69,8 @@ def _over(
         parts, name = ends.split(":"), name.strip()
         if len(parts) != form.count(":") + 1 or not name:
             example = "mB=60:110:6" if form.endswith("NUM") else "mB=60:110"
-            raise click.BadParameter(f"{text!r} is not NAME={form}, e.g. {example}", param=option)
+            hint = f"; --set takes a list: --set {text}" if name and "," in ends and _has_set() else ""
+            raise click.BadParameter(f"{text!r} is not NAME={form}, e.g. {example}{hint}", param=option)
         if name in seen:
             raise click.BadParameter(f"{name} is given twice", param=option)
         seen.add(name)
@@ -77,6 +81,22 @@ def _over(
         if not start < stop:
             raise click.BadParameter(f"{text!r} does not end above its start", param=option)
         yield name, start, stop, parts[2].strip() if len(parts) > 2 else ""
+
+
+def _has_set() -> bool:
+    return any("--set" in each.opts for each in click.get_current_context().command.params)
+
+
+def is_list(text: object, units: Units) -> bool:
+    """Whether it is numbers with commas between, each of which would do alone."""
+    if not isinstance(text, str) or "," not in text:
+        return False
+    try:
+        for part in text.split(","):
+            quantity(part, units)
+    except InputError:
+        return False
+    return True
 
 
 def ends_of(parts: list[str]) -> list[str]:

@@ -6,17 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import (
-    ANGLE_VALUE,
-    FILE,
-    LENGTH_VALUE,
-    NAME,
-    SPEED_VALUE,
-    TRAIL_VALUE,
-    at_option,
-    told_as_options,
-)
+from bikestab_cli.options import FILE, NAME, at_option, told_as_options
 from bikestab_cli.output import tell_file
+from bikestab_cli.quantities import ANGLE_VALUE, LENGTH_VALUE, SPEED_VALUE, TRAIL_VALUE
 
 if TYPE_CHECKING:
     from bikestab.plot.slices import PlaneField

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.chosen import Given
-from bikestab_cli.options import Ends
 from bikestab_cli.parameters import parameter
+from bikestab_cli.quantities import Ends
 
 from bikestab.errors import InputError
 from bikestab.gains import GAINS
