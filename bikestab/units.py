@@ -145,10 +145,10 @@ def units_in(meaning: str) -> Units:
     return next((units for units in _DIMENSIONS.values() if symbol in units), PURE)
 
 
-def as_built(value: float, unit: str) -> str:
+def as_built(value: float, unit: str, digits: int = 6) -> str:
     """A quantity in SI units in those in which frames are built: lengths in mm, angles in degrees."""
     unit, size = BUILDERS.get(unit, (unit, 1.0))
-    return f"{value * size:.6g} {unit}".removesuffix(" 1").replace(" deg", "°")
+    return f"{value * size:z.{digits}g} {unit}".removesuffix(" 1").replace(" deg", "°")
 
 
 def shown(value: object) -> str:

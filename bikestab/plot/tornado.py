@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,81 +11,133 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from bikestab.design.effects import Row
-from bikestab.plot.headings import set_title, short
+from bikestab.plot.headings import set_title
 from bikestab.plot.lines import legend_below
 from bikestab.plot.settings import own_settings
+from bikestab.units import BUILDERS, as_built
 
 _COLORS = ("#004488", "#DDAA33")  # Tol 2021, high contrast
-_LEAST, _SEEN = 0.005, 0.004  # %/%, and share of the largest: smaller bars are none to see
-_PANEL, _BAR = 4.6, 0.24  # inches
+_LEAST, _SEEN = 0.005, 0.006  # %/%, and share of the largest: smaller bars are none to see
+_PANEL, _BAR, _ROW = 4.5, 0.24, 0.17  # inches: a panel's width, the height of a bar, and of a title's row
+_COLUMNS = 2  # of panels: beside more of them words could not be read in print
+_FRONT = "measures of the front:"
+_WHITE = {"facecolor": "white", "edgecolor": "none", "pad": 1}
+_TITLE: dict[str, Any] = {"x": 1.0, "ha": "right", "multialignment": "center"}  # over the names too
 
 
 class Bar(NamedTuple):
-    """A parameter, its value and unit, and by how much one per cent more of it moves each result."""
+    """A parameter, its value and unit, and by how much one per cent more of it moves each result.
+
+    Of a value of zero one per cent is nothing: ``slopes`` are the derivatives. What is of the ``front`` is no
+    parameter of the machine's notation.
+    """
 
     name: str
     value: float
     unit: str
     effects: tuple[float, ...]
+    slopes: tuple[float, ...] = ()
+    front: bool = False
 
 
 class Panel(NamedTuple):
-    """A machine, its bars, and what is said where it has none."""
+    """The title's lines, the bars, and what is said where there are none."""
 
-    name: str
+    title: Sequence[str]
     bars: Sequence[Bar]
     none: str
 
 
-def draw_tornado(machines: Sequence[tuple[str, Sequence[Row]]]) -> Figure:
-    """One panel for each machine: its name, and the rows of one of its stable intervals.
+def draw_tornado(machines: Sequence[tuple[Sequence[str], Sequence[Row]]]) -> Figure:
+    """One panel for each machine: the title's lines, and the rows of one of its stable intervals.
 
-    Bars are per cent of the speed for one per cent of the parameter. Parameters that move neither end by more
-    than 0.005, or too little for a bar to be seen, are left out, as are measures of the front that are not in
-    the bicycle's notation.
+    Bars are per cent of the speed for one per cent of the parameter.
     """
     panels = []
-    for name, rows in machines:
+    for title, rows in machines:
         bars = [
             Bar(
-                row["name"], row["value"], row["unit"], (row["elasticity_V1"] or 0, row["elasticity_V2"] or 0)
+                row["name"], row["value"], row["unit"],
+                (row["elasticity_V1"] or 0.0, row["elasticity_V2"] or 0.0),
+                (row["dV1"] or 0.0, row["dV2"] or 0.0), not row["notation"],
             )
             for row in rows
-            if row["notation"]
-        ]
-        bars = [bar for bar in bars if _size(bar) > max(_LEAST, _SEEN * max(map(_size, bars)))]
-        panels.append(Panel(name, bars, "no stable speed"))
-    return draw_bars(panels, "% of the speed for 1 % more", ("V₁", "V₂"))
+        ]  # fmt: skip
+        panels.append(
+            Panel(title, [bar for bar in bars if bar.value == 0 or _size(bar) > _LEAST], "no stable speed")
+        )
+    return draw_bars(panels, "% of the speed for 1 % more\nwider interval: V₁ ←, V₂ →", ("V₁", "V₂"), "m/s")
 
 
 @own_settings()
-def draw_bars(panels: Sequence[Panel], words: str, results: Sequence[str] = ("",)) -> Figure:
-    """One panel for each machine; ``words`` say what the bars measure, ``results`` what each colour is of."""
-    most = max((len(panel.bars) for panel in panels), default=0)
-    figure = Figure(figsize=(_PANEL * max(len(panels), 1), 1.4 + _BAR * max(most, 4)), layout="constrained")
+def draw_bars(panels: Sequence[Panel], words: str, results: Sequence[str] = ("",), unit: str = "") -> Figure:
+    """One panel for each machine; ``words`` say what the bars measure, ``results`` what each colour is of.
+
+    ``unit`` is that of the results.
+
+    Left out are parameters whose bars cannot be seen, and measures of the front that say what another does.
+    """
+    panels = [panel._replace(bars=_shown(panel.bars)) for panel in panels]
+    columns = min(len(panels), _COLUMNS)
+    rows = -(-len(panels) // _COLUMNS)
+    figure = Figure(figsize=(_PANEL * columns, 1.0), layout="constrained")
+    grid = figure.add_gridspec(rows or 1, columns or 1)
+    heights = [0.0] * rows
     for i, panel in enumerate(panels):
-        ax = figure.add_subplot(1, len(panels), i + 1)
-        _draw(ax, panel, len(results))
+        ax = figure.add_subplot(grid[i // columns, i % columns])
+        bars = _draw(ax, panel, results, unit)
         ax.set_xlabel(words)
-        title = short(panel.name) if panel.bars else f"{short(panel.name)}: {panel.none}"
-        set_title(ax, title, panels=len(panels))
+        first, *others = panel.title
+        first = first if panel.bars else f"{first}: {panel.none}"
+        set_title(ax, first, *others, panels=columns, **_TITLE)
+        height = 1.5 + _BAR * max(bars, 4) + _ROW * ax.get_title().count("\n")
+        heights[i // columns] = max(heights[i // columns], height)
+    figure.set_figheight(sum(heights))
+    grid.set_height_ratios(heights)
     seen = [any(bar.effects[i] for panel in panels for bar in panel.bars) for i in range(len(results))]
     handles = [Patch(color=c, label=r) for r, c, some in zip(results, _COLORS, seen, strict=False) if some]
     legend_below(figure, handles if len(results) > 1 else [])
     return figure
 
 
-def _draw(ax: Axes, panel: Panel, results: int) -> None:
-    place, height = np.arange(len(panel.bars)), 0.8 / results
-    for i, color in enumerate(_COLORS[:results]):
-        at = place + height * (i - 0.5 * (results - 1))
+def _shown(bars: Sequence[Bar]) -> list[Bar]:
+    least = _SEEN * max(map(_size, bars), default=0.0)
+    own = [
+        bar for bar in bars if not bar.front and (_size(bar) > least or (bar.value == 0 and any(bar.slopes)))
+    ]
+    shown = own.copy()
+    for bar in bars:
+        if bar.front and _size(bar) > least and not any(np.allclose(bar.effects, b.effects) for b in shown):
+            shown.append(bar)
+    return shown
+
+
+def _draw(ax: Axes, panel: Panel, results: Sequence[str], unit: str) -> int:
+    """Bars in rows of axes, those of the front below; how many rows there are."""
+    own = [bar for bar in panel.bars if not bar.front]
+    names = [_label(bar) for bar in panel.bars]
+    place, rows = np.arange(len(panel.bars)), np.arange(len(panel.bars))
+    if len(own) < len(panel.bars):
+        names.insert(len(own), _FRONT)
+        place[len(own) :] += 1
+        rows = np.arange(len(names))
+    height = 0.8 / len(results)
+    for i, color in enumerate(_COLORS[: len(results)]):
+        at = place + height * (i - 0.5 * (len(results) - 1))
         ax.barh(at, [bar.effects[i] for bar in panel.bars], height=height, color=color)
+    for row, bar in zip(place, panel.bars, strict=True):
+        if bar.value == 0:
+            style: dict[str, Any] = {"fontsize": 9, "va": "center", "bbox": _WHITE}
+            ax.text(
+                0.03, float(row), _of_zero(bar, results, unit), transform=ax.get_yaxis_transform(), **style
+            )
     ax.axvline(0, color="0.2", lw=0.8)
-    ax.set_yticks(place, [_label(bar) for bar in panel.bars])
-    ax.set_ylim(max(len(panel.bars), 1) - 0.5, -0.5)
+    ax.set_yticks(rows, names)
+    ax.set_ylim(max(len(names), 1) - 0.5, -0.5)
     ax.locator_params(axis="x", nbins=5)
     ax.grid(axis="x", color="0.9")
     ax.set_axisbelow(True)
+    return len(names)
 
 
 def _size(bar: Bar) -> float:
@@ -93,5 +145,11 @@ def _size(bar: Bar) -> float:
 
 
 def _label(bar: Bar) -> str:
-    value = f"{bar.value:.4g}".replace("-", "−")
-    return f"{bar.name} = {value}{'' if bar.unit == '1' else f' {bar.unit}'}"
+    return f"{bar.name} = {as_built(bar.value, bar.unit, 4)}".replace("-", "−")
+
+
+def _of_zero(bar: Bar, results: Sequence[str], unit: str) -> str:
+    """The effects of a unit of a parameter that is zero."""
+    one, size = BUILDERS.get(bar.unit, (bar.unit, 1.0))
+    effects = (f"{of} {slope / size:+.3g}" for of, slope in zip(results, bar.slopes, strict=True) if slope)
+    return f"{', '.join(effects)} {unit} per {one}".replace("  ", " ").replace("-", "−").strip()

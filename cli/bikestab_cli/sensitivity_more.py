@@ -12,17 +12,21 @@ from bikestab.units import BUILDERS
 
 if TYPE_CHECKING:
     from bikestab.design.sensitivity import Sensitivity
+    from bikestab.plot.tornado import Panel
     from bikestab.region.first_sigma import FirstSigma
 
 _NAMES = 6  # named in the line
-_LEAST = 0.005  # of the largest: smaller bars are none to see
 
 
 class Moved(NamedTuple):
-    """What parameters move, with and without its value; its sign, unit and derivatives: empty for none."""
+    """What parameters move, with and without its value; its sign, unit and derivatives: empty for none.
+
+    ``lower`` says why it is better where it is less.
+    """
 
     words: str
     what: str
+    lower: str
     symbol: str
     unit: str
     slope: Mapping[str, float]
@@ -32,7 +36,7 @@ def growth_moved(found: Sensitivity) -> Moved:
     """The lowest growth rate of a design."""
     best = found.best
     words = f"lowest growth rate: {best.value:.6g} 1/s at {best.V:.6g} m/s"
-    return Moved(words, "lowest growth rate", "growth", " 1/s", best.slope)
+    return Moved(words, "lowest growth rate", "decays faster", "growth", " 1/s", best.slope)
 
 
 def sigma_moved(first: FirstSigma) -> Moved:
@@ -43,7 +47,7 @@ def sigma_moved(first: FirstSigma) -> Moved:
         at = "" if first.V in (None, 0.0) else f" at {first.V:.6g} m/s"
         words += f" ({first.kind}{at})"
     words += f"; {first.reason}" if first.reason else ""
-    return Moved(words, "smallest σ with a stable speed", "σ", "", first.slope)
+    return Moved(words, "smallest σ with a stable speed", "less trail is enough", "σ", "", first.slope)
 
 
 MOVED: dict[str, Callable[[Sensitivity, FirstSigma], Moved]] = {
@@ -109,12 +113,27 @@ def told_of(opening: str, found: Sensitivity, moved: Moved) -> str:
     return "\n\n".join(map(prose, [opening, *tables(found, moved)]))
 
 
-def bars(found: Sensitivity, moved: Moved) -> list[tuple[str, float, str, tuple[float]]]:
-    """Of each parameter of the notation that has an effect: name, value, unit, and the effect of 1 % more."""
+def panel(found: Sensitivity, moved: Moved, name: str) -> Panel:
+    """What a picture shows of one machine: its design and value, and the effects of 1 % more."""
+    from bikestab.plot.tornado import Bar, Panel
+
     effects = _effects(found, moved)
-    least = _LEAST * max((abs(x) for x in effects.values() if math.isfinite(x)), default=0.0)
-    return [
-        (name, found.values[name], found.units[name], (effects[name],))
+    shown = [
+        Bar(name, found.values[name], found.units[name], (effects[name],), (moved.slope[name],), front)
+        for front in (False, True)
         for name in _sorted(effects)
-        if _of_notation(found, name) and abs(effects[name]) > least
+        if _of_notation(found, name) != front and math.isfinite(effects[name])
     ]
+    return Panel([*title(found, name), moved.words], shown, f"no {moved.what}")
+
+
+def title(found: Sensitivity, name: str) -> list[str]:
+    """A picture's: whose design it is, and what is held."""
+    from bikestab.plot.axes import remarks
+    from bikestab.plot.headings import short
+
+    design = (
+        f"λ = {found.lam:.4g} rad (head angle {90 - math.degrees(found.lam):.2f}°), σ = {found.sigma:.4g}"
+    )
+    held = {"sigma": "σ"}.get(found.hold, found.hold)
+    return [f"{short(name)}{remarks(found.bicycle, found.model)}", f"{design}, {held} held"]

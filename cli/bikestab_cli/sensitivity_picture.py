@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bikestab_cli.sensitivity_more import MOVED, bars
+from bikestab_cli.sensitivity_more import MOVED, panel, title
+from bikestab_cli.sensitivity_words import ends_of
 
 if TYPE_CHECKING:
     from bikestab_cli.sensitivity_found import Found
+
+_LETTERS = 34  # beneath bars
 
 
 def draw(found: Sequence[Found], what: str, output: str) -> None:
@@ -24,20 +28,22 @@ def _speeds(found: Sequence[Found]) -> Any:
     from bikestab.design.effects import width
     from bikestab.plot.tornado import draw_tornado
 
-    panels = []
+    machines = []
     for each in found:
         widest: Any = max(each.record["intervals"], key=width, default={"parameters": []})
-        panels.append((each.machine.words, widest["parameters"]))
-    return draw_tornado(panels)
+        lines = title(each.of, each.machine.words)
+        if widest["parameters"]:
+            lines.append(f"stable from {ends_of(widest)}")
+        machines.append((lines, widest["parameters"]))
+    return draw_tornado(machines)
 
 
 def _moved(found: Sequence[Found], what: str) -> Any:
-    from bikestab.plot.tornado import Bar, Panel, draw_bars
+    from bikestab.plot.tornado import draw_bars
 
     moved = [MOVED[what](each.of, each.first) for each in found]
-    panels = [
-        Panel(each.machine.words, [Bar(*one) for one in bars(each.of, of)], f"no {of.what}")
-        for each, of in zip(found, moved, strict=True)
-    ]
-    unit = f" [{moved[0].unit.strip()}]" if moved[0].unit else ""
-    return draw_bars(panels, f"change of the {moved[0].what}{unit}\nwith 1 % more")
+    panels = [panel(each.of, of, each.machine.words) for each, of in zip(found, moved, strict=True)]
+    of, unit = moved[0], moved[0].unit.strip()
+    words = f"change of the {of.what} with 1 % more{f' [{unit}]' if unit else ''}"
+    words = "\n".join([*textwrap.wrap(words, _LETTERS), f"← better: {of.lower}"])
+    return draw_bars(panels, words, unit=unit)

@@ -35,7 +35,7 @@ def told(found: Sensitivity, first: FirstSigma, record: Mapping[str, Any], chang
     parts = [opening(found, changes)]
     for interval in record["intervals"]:
         rows = interval["parameters"]
-        parts.append(f"stable from {_ends(interval)}")
+        parts.append(f"stable from {ends_of(interval)}")
         doubts = _doubts(found, rows)
         parts.append(_table([row for row in rows if row["notation"]], "parameter", doubts))
         parts.append(_table([row for row in rows if not row["notation"]], "front", doubts))
@@ -61,7 +61,8 @@ def _design(found: Sensitivity) -> str:
     return f"λ = {lam} rad, σ = {sigma}\nhead angle {head}°, trail {trail} m, offset {offset} m"
 
 
-def _ends(interval: Interval) -> str:
+def ends_of(interval: Interval) -> str:
+    """An interval in words."""
     above = "on, without an upper limit"
     if interval["V2"] is not None:
         above = f"to {interval['V2']:.6f} m/s ({interval['upper']})"
@@ -186,7 +187,7 @@ def side_by_side(found: Sequence[Found]) -> str:
 
 def _summary(record: Mapping[str, Any]) -> str:
     widest = _widest(record["intervals"])
-    return "no stable speed" if widest is None else f"stable from {_ends(widest)}"
+    return "no stable speed" if widest is None else f"stable from {ends_of(widest)}"
 
 
 def _elasticities(records: Sequence[Mapping[str, Any]], start: int) -> str:

@@ -76,7 +76,7 @@ def test_machines_of_two_notations_side_by_side(told):
     assert "B: sharp1971" in out
     assert "l1" in out.split()
     assert "mB" not in out.split()
-    many = told(*["--bicycle", "meijaard2007"] * 6)[1]
+    many = told("--bicycle", "meijaard2007", "--set", "mB=60,65,70,75,80,85")[1]
     assert "mB" in many.split()
     assert "F: meijaard2007" in many
 

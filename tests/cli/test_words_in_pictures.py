@@ -51,6 +51,8 @@ COMMANDS = [
     f"design {ALL}",
     "design --bicycle meijaard2007 --free trail=2cm:15cm --free mB=60:110 --stable 5:5.4",
     f"sensitivity {PAPER}",
+    "sensitivity --bicycle meijaard2007 --of growth",
+    "sensitivity --lam 0.1 --sigma 0.08 --of sigma_min",
     "sensitivity --bicycle kooijman2011 --bicycle meijaard2007 --bicycle sharp1971",
     "compare meijaard2007 kooijman2011",
     "compare dikarev1981 meijaard2007",

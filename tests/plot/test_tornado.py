@@ -10,12 +10,21 @@ from bikestab.plot.tornado import Bar, Panel, draw_bars, draw_tornado
 
 def test_bars_are_elasticities():
     found = sensitivity(Bicycle.preset("meijaard2007"))
-    figure = draw_tornado([("meijaard2007", effects(found, 0)), ("none", [])])
+    figure = draw_tornado([(["meijaard2007"], effects(found, 0)), (["none"], [])])
     ax, empty = figure.axes
     names = [label.get_text().split(" = ")[0] for label in ax.get_yticklabels()]
     assert names[:2] == ["xH", "w"]
     assert "IByy" not in names
-    assert "offset" not in names
+    assert names[-4:] == ["delta", "measures of the front:", "head_angle", "offset"]
+    assert [text.get_text() for text in ax.texts] == ["V₁ +0.0113 m/s per kg m²/s"]
+    values = dict(label.get_text().split(" = ") for label in ax.get_yticklabels() if "=" in label.get_text())
+    assert (values["lam"], values["c"], values["zB"], values["delta"]) == (
+        "18°",
+        "80 mm",
+        "−900 mm",
+        "0 kg m²/s",
+    )
+    names.remove("measures of the front:")
     for container, which in zip(ax.containers, (0, 1), strict=True):
         for name, bar in zip(names, container, strict=True):
             assert bar.get_width() == pytest.approx(found.elasticity(name)[which][0])
@@ -27,10 +36,10 @@ def test_bars_are_elasticities():
 
 def test_legend_has_the_results_of_all_machines():
     names = ("kooijman2011", "meijaard2007")  # the first has no upper limit
-    machines = [(name, effects(sensitivity(Bicycle.preset(name)), 0)) for name in names]
+    machines = [([name], effects(sensitivity(Bicycle.preset(name)), 0)) for name in names]
     assert _legend(draw_tornado(machines)) == _legend(draw_tornado(machines[1:])) == ["V₁", "V₂"]
     assert _legend(draw_tornado(machines[:1])) == ["V₁"]
-    assert draw_tornado([("none", [])]).legends == []
+    assert draw_tornado([(["none"], [])]).legends == []
 
 
 def _legend(figure):
@@ -40,8 +49,27 @@ def _legend(figure):
 
 def test_one_result_has_no_legend():
     bars = [Bar("c", 1.02, "m", (0.05,)), Bar("sigma", 0.08, "1", (-0.01,))]
-    ax, empty = draw_bars([Panel("a", bars, ""), Panel("b", [], "no such σ")], "change of σ").axes
+    panels = [Panel(["a", "held"], bars, ""), Panel(["b"], [], "no such σ")]
+    ax, empty = draw_bars(panels, "change of σ").axes
     assert [bar.get_width() for bar in ax.containers[0]] == [0.05, -0.01]
-    assert [label.get_text() for label in ax.get_yticklabels()] == ["c = 1.02 m", "sigma = 0.08"]
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["c = 1020 mm", "sigma = 0.08"]
     assert ax.figure.legends == []
-    assert (ax.get_title(), empty.get_title(), ax.get_xlabel()) == ("a", "b: no such σ", "change of σ")
+    assert (ax.get_title(), empty.get_title(), ax.get_xlabel()) == ("a\nheld", "b: no such σ", "change of σ")
+
+
+def test_what_says_the_same_of_the_front_is_left_out_and_what_is_zero_has_its_slope():
+    bars = [
+        Bar("c", 0.08, "m", (0.5,), (6.0,)), Bar("D1", 0.0, "kg m²", (0.0,), (-0.25,)),
+        Bar("A1", 0.0, "kg m²", (0.0,), (0.0,)), Bar("trail", 0.08, "m", (0.5,), (6.0,), True),
+        Bar("lam", 0.0, "rad", (0.0,), (3.0,)), Bar("offset", 0.03, "m", (-0.2,), (2.0,), True),
+    ]  # fmt: skip
+    (ax,) = draw_bars([Panel(["a"], bars, "")], "growth", unit="1/s").axes
+    names = [label.get_text().split(" =")[0] for label in ax.get_yticklabels()]
+    assert names == ["c", "D1", "lam", "measures of the front:", "offset"]
+    assert [text.get_text() for text in ax.texts] == ["−0.25 1/s per kg m²", "+0.0524 1/s per deg"]
+    assert ax.get_ylim() == (4.5, -0.5)
+
+
+def test_words_can_be_read_in_print_of_however_many_machines():
+    figure = draw_bars([Panel([str(i)], [Bar("c", 1.0, "m", (0.1,))], "") for i in range(7)], "change")
+    assert 9 * 16 / 2.54 / figure.get_figwidth() > 6  # points, on a page of 16 cm
