@@ -5,11 +5,14 @@ Coefficients go over as two doubles each, nearest to the exact fractions.
 
 from __future__ import annotations
 
+import shlex
+from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from bikestab.algebra import Polynomial
 from bikestab.bicycle import Bicycle
+from bikestab.errors import InputError
 from bikestab.formulas import coefficient_formulas, table_formulas
 from bikestab.gains import GAINS, rate_and_power
 from bikestab.letters import Model
@@ -19,7 +22,15 @@ Formula = list[list[float]]
 _SPEEDS = 4  # powers of V in the table of a machine without feedback
 
 
-def machine_record(bicycle: Bicycle, model: Model) -> dict[str, Any]:
+class Kept(NamedTuple):
+    """Where a machine is kept: a volume's path and the bicycle that it tells, and what its sweep changes."""
+
+    path: str
+    first: Bicycle
+    swept: Mapping[str, float]
+
+
+def machine_record(bicycle: Bicycle, model: Model, kept: Kept) -> dict[str, Any]:
     """A machine as page/table.mjs takes it: formulas are lists of (powers of sin λ, cos λ, σ, value, rest).
 
     Where gains are in proportion to 1/V, the whole table is times V.
@@ -29,7 +40,7 @@ def machine_record(bicycle: Bicycle, model: Model) -> dict[str, Any]:
     return {
         "name": bicycle.name,
         "source": bicycle.source,
-        "command": command_options(bicycle, model),
+        "command": command_options(bicycle, model, kept),
         "table": [[_formula(table.get((k, j))) for j in range(lowest, _SPEEDS)] for k in range(5)],
         "motion": _motion(bicycle, model),
         "own": None if bicycle.lam is None or bicycle.sigma is None else [bicycle.lam, bicycle.sigma],
@@ -45,27 +56,45 @@ def machine_record(bicycle: Bicycle, model: Model) -> dict[str, Any]:
     }
 
 
-def command_options(bicycle: Bicycle, model: Model) -> str:
-    """The options of the command line that mean this machine: a preset, or every number but its design."""
+def command_options(bicycle: Bicycle, model: Model, kept: Kept) -> str:
+    """The options of the command line that mean this machine, as a shell takes them.
+
+    They name a preset where it is one, with what a sweep gives it, or else the volume that has it.
+    """
     options = []
-    own = {name: x for name, x in bicycle.numbers().items() if x is not None and name not in ("lam", "sigma")}
-    changed = {name: x for name, x in own.items() if name == "delta" or name in GAINS}
-    if bicycle.name in preset_names() and _alike(Bicycle.preset(bicycle.name), bicycle):
+    named = _preset(bicycle, kept.swept)
+    if named is not None:
         options.append(f"--bicycle {bicycle.name}")
-        if changed.pop("delta") != Bicycle.preset(bicycle.name).delta:
-            options.append(f"--delta {own['delta']!r}")
-        options += [f"--set {name}={value!r}" for name, value in changed.items()]
+        options += [f"--set {name}={value!r}" for name, value in kept.swept.items() if name != "delta"]
     else:
-        options += [f"--set {name}={value!r}" for name, value in own.items()]
+        options.append(f"--bicycle {shlex.quote(kept.path)}")
+    for name, value in _changed(named or kept.first, bicycle).items():
+        options.append(f"--delta {value!r}" if name == "delta" else f"--set {name}={value!r}")
     if model != "refined":
         options.append(f"--model {model}")
     return " ".join(options)
 
 
-def _alike(preset: Bicycle, other: Bicycle) -> bool:
-    """Whether two bicycles are the same but for the damping, and for gains that the first has not."""
-    numbers = preset.numbers()
-    return all(other.numbers()[name] == value for name, value in numbers.items() if name != "delta")
+def _preset(bicycle: Bicycle, swept: Mapping[str, float]) -> Bicycle | None:
+    """The preset of this name with the values of a sweep but for damping, if the bicycle is it.
+
+    Its damping and gains may be others: both notations have the same names for these.
+    """
+    if bicycle.name not in preset_names():
+        return None
+    values = {name: value for name, value in swept.items() if name != "delta"}
+    try:
+        preset = Bicycle.preset(bicycle.name).replaced(values)
+    except InputError:  # a parameter that the preset has not
+        return None
+    return preset if _changed(preset, bicycle).keys() <= {"delta", *GAINS} else None
+
+
+def _changed(one: Bicycle, other: Bicycle) -> dict[str, float]:
+    """What must be set for the one to be the other, but its design; what is no parameter is a gain of 0."""
+    before, then = one.numbers(), other.numbers()
+    names = [name for name in {**before, **then} if name not in ("lam", "sigma")]
+    return {name: then.get(name) or 0.0 for name in names if then.get(name) != before.get(name)}
 
 
 def _motion(bicycle: Bicycle, model: Model) -> dict[str, list[list[Formula]]]:

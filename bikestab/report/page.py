@@ -19,8 +19,8 @@ from bikestab.volume import Volume
 
 _MODULES = (
     "twofold", "table", "roots", "intervals", "eigenvalues", "modes", "motion", "geometry", "drawings",
-    "volumes", "words", "elements", "library", "charts", "curves", "region", "labels", "controls", "saving",
-    "page",
+    "volumes", "opening", "words", "elements", "library", "charts", "curves", "region", "labels", "controls",
+    "saving", "page",
 )  # fmt: skip
 _IMPORT = re.compile(r'from "\./([a-z]+)\.mjs"')
 CITE = (

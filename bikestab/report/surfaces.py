@@ -14,6 +14,7 @@ from PIL import Image
 
 from bikestab.family import Family
 from bikestab.model import Floats
+from bikestab.plot.arranged import arrange_region
 from bikestab.plot.lines import legend_below
 from bikestab.plot.region import draw_mesh
 from bikestab.plot.settings import own_settings
@@ -61,12 +62,11 @@ def _picture(mesh: Mesh, box: Sequence[tuple[float, float]]) -> dict[str, Any]:
 
     With the matrix (3, 4) that takes (λ, σ, V, 1) to w times the shares of its width and height, and w.
     """
-    figure = Figure(figsize=(6.4, 5.6), layout="constrained")
+    figure = Figure(figsize=(4.8, 4.2))
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
-    if handles := draw_mesh(ax, mesh, box):
-        legend_below(figure, handles, handlelength=2)
+    arrange_region(figure, ax, legend_below(figure, draw_mesh(ax, mesh, box), handlelength=2))
     drawn, file = BytesIO(), BytesIO()
-    figure.savefig(drawn, format="png", dpi=100)
+    figure.savefig(drawn, format="png", dpi=640 / 4.8)
     Image.open(drawn).convert("RGB").quantize(64).save(file, "png", optimize=True)  # a quarter of its size
     flat = (ax.transData + figure.transFigure.inverted()).get_matrix()
     return {

@@ -11,7 +11,7 @@ from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.geometry import GIVEN
-from bikestab.report.machines import machine_record
+from bikestab.report.machines import Kept, machine_record
 from bikestab.report.surfaces import surfaces
 from bikestab.volume import Volume, check_ranges
 
@@ -28,9 +28,9 @@ def volume_records(volumes: Sequence[Volume], progress: Progress) -> list[dict[s
     """
     records = [_volume(volume) for volume in volumes]
     every = [
-        (family, record["box"])
+        (family, kept, record["box"])
         for volume, record in zip(volumes, records, strict=True)
-        for family in _families(volume)
+        for family, kept in families(volume)
     ]
     with meanwhile(lambda: [_machine(*one) for one in every[1::2]]) as others:
         machines: list[Any] = [None] * len(every)
@@ -80,14 +80,16 @@ def _swept(volume: Volume) -> list[tuple[float, ...]]:
     return list(product(*(values.tolist() for values in volume.swept.values())))
 
 
-def _families(volume: Volume) -> Iterator[Family]:
+def families(volume: Volume) -> Iterator[tuple[Family, Kept]]:
+    """The machines of a volume, each with where it is kept."""
     for values in _swept(volume):
-        yield volume.at(dict(zip(volume.swept, values, strict=True))).family
+        swept = dict(zip(volume.swept, values, strict=True))
+        yield volume.at(swept).family, Kept(str(volume.path), volume.bicycle, swept)
 
 
-def _machine(family: Family, box: Box) -> dict[str, Any]:
+def _machine(family: Family, kept: Kept, box: Box) -> dict[str, Any]:
     lam, sigma, V = ((low, high) for low, high in box.values())
-    return machine_record(family.bicycle, family.model) | surfaces(family, lam, sigma, V)
+    return machine_record(family.bicycle, family.model, kept) | surfaces(family, lam, sigma, V)
 
 
 def _unit(volume: Volume, name: str) -> str:

@@ -59,7 +59,7 @@ def machine_options(function: F) -> F:
     return click.option(
         "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", default=DEFAULT_BICYCLE,
         show_default=True,
-        help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a file of one.",
+        help="A bicycle that comes with bikestab (see 'bikestab bicycles'), a file of one, or a volume.",
     )(equation_options(function))  # fmt: skip
 
 
@@ -119,12 +119,25 @@ def load_bicycle(name: str, delta: float | None) -> Bicycle:
     if "," in name and all(part.strip() in preset_names() for part in name.split(",")):
         problem = f"{name!r} is a list; give --bicycle once for each, where a command takes several"
         raise click.BadParameter(problem, param_hint="--bicycle")
-    bicycle = Bicycle.load(name)
+    bicycle = _of_volume(name) or Bicycle.load(name)
     with told_as_options():
         bicycle = with_its_rider(bicycle)
         bicycle = bicycle.with_delta(None if delta is None else delta + 0.0)  # not -0
     warn(bicycle)
     return bicycle
+
+
+def _of_volume(name: str) -> Bicycle | None:
+    """The machine of a volume, or the first of its sweep; None for what is no volume."""
+    from bikestab.formats.kinds import kind_of
+    from bikestab.presets import preset_names
+
+    if name in preset_names() or kind_of(name) != "volume":
+        return None
+    from bikestab.volume import Volume
+
+    with Volume(name) as volume:
+        return volume.bicycle
 
 
 def warn(bicycle: Bicycle) -> None:

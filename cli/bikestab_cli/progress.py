@@ -14,8 +14,13 @@ TERMINAL, LOG = 0.1, 30.0  # s between two reports
 
 
 @contextmanager
-def progress(name: str, quiet: bool, what: str = "points") -> Iterator[Callable[[int, int], None]]:
-    """A function that takes the points done so far and all, and tells of them on stderr."""
+def progress(
+    name: str, quiet: bool, what: str = "points", at_once: bool = False
+) -> Iterator[Callable[[int, int], None]]:
+    """A function that takes the points done so far and all, and tells of them on stderr.
+
+    On a terminal ``at_once`` shows the first report, which is else that of a command that may be done soon.
+    """
     name = visible(name)
     terminal = sys.stderr is not None and sys.stderr.isatty()
     begin = last = time.monotonic()
@@ -29,7 +34,8 @@ def progress(name: str, quiet: bool, what: str = "points") -> Iterator[Callable[
             first = done
             if done and not quiet:
                 _tell(f"{name}: going on at {_percent(done, points)}\n")
-        if quiet or now - last < (TERMINAL if terminal else LOG):
+        begun = at_once and terminal and not shown
+        if quiet or (now - last < (TERMINAL if terminal else LOG) and not begun):
             return
         last, shown = now, True
         line = f"{name}: {_percent(done, points)} of {_short(points)} {what}"

@@ -38,6 +38,6 @@ def command(volumes: tuple[str, ...], output: str, quiet: bool) -> None:
 
     check_files(output)
     with ExitStack() as opened:
-        show = opened.enter_context(progress(output, quiet, "machines"))
+        show = opened.enter_context(progress(output, quiet, "machines", at_once=True))
         size = save_page([opened.enter_context(Volume(volume)) for volume in volumes], output, show)
     tell_file(output, f"{size / 1e6:.1f} MB, opens in any browser")

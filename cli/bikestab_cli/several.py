@@ -83,7 +83,8 @@ def several_machines(function: F) -> F:
     named = click.option(
         "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", multiple=True,
         default=(DEFAULT_BICYCLE,), show_default=True,
-        help="A bicycle that comes with bikestab (see 'bikestab bicycles'), or a file of one; several.",
+        help="A bicycle that comes with bikestab (see 'bikestab bicycles'), a file of one, or a volume; "
+        "several.",
     )  # fmt: skip
     changed = click.option(
         "--set", "changes", metavar="NAME=VALUE,...", multiple=True, callback=_values,

@@ -21,11 +21,11 @@ class Terminal(io.StringIO):
 def told(monkeypatch):
     """Report at times [s] so many points of 10 000, and give what was told."""
 
-    def run(*reports, terminal=False, quiet=False, points=10_000):
+    def run(*reports, terminal=False, quiet=False, points=10_000, **more):
         err, now = Terminal(terminal), [100.0]
         monkeypatch.setattr(sys, "stderr", err)
         monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
-        with progress("a.yaml", quiet) as show:
+        with progress("a.yaml", quiet, **more) as show:
             for time, done in reports:
                 now[0] = 100.0 + time
                 show(done, points)
@@ -46,6 +46,13 @@ def test_a_log_gets_a_line_every_half_minute(told):
 def test_a_short_scan_says_nothing(told):
     assert told((0, 0), (5, 10_000)) == ""
     assert told((0, 0), (0.05, 10_000), terminal=True) == ""
+
+
+def test_what_has_few_long_parts_tells_on_a_terminal_that_it_has_begun(told):
+    text = told((0, 0), (0.05, 1), terminal=True, points=3, what="machines", at_once=True)
+    assert text == "\ra.yaml: 0 % of 3 machines\x1b[K\r\x1b[K"
+    assert told((0, 0), (5, 1), at_once=True) == ""
+    assert told((0, 0), (5, 1), at_once=True, terminal=True, quiet=True) == ""
 
 
 def test_a_terminal_has_one_line_that_is_wiped_in_the_end(told):

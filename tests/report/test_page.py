@@ -143,7 +143,8 @@ def test_sliders_numbers_and_words_agree(opened):
     drawn(page)
     assert "stable" in page.get_attribute("#modes", "aria-label")
     command = shlex.split(page.inner_text("#command code"))
-    assert float(command[command.index("--lam") + 1]) == pytest.approx(lam, abs=1e-12)
+    (tilt,) = (word.removeprefix("--lam=") for word in command if word.startswith("--lam="))
+    assert float(tilt) == pytest.approx(lam, abs=1e-12)
 
 
 def test_sentences_say_what_happens_below_above_and_with_a_longer_trail(opened):
@@ -296,6 +297,62 @@ def test_it_prints_on_two_sheets_of_a4(opened, tmp_path):
     page.emulate_media(media="print")
     assert not page.locator("#play").is_visible()
     assert page.evaluate("getComputedStyle(document.body).color") == "rgb(0, 0, 0)"
+
+
+def test_letters_on_paper_are_large_enough(opened):
+    page = opened()
+    before = page.evaluate("document.getElementById('modes').clientWidth")
+    page.emulate_media(media="print")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    sizes = page.evaluate(
+        "() => [...document.querySelectorAll('.plot svg text, p, td, li, figcaption')]"
+        ".filter(e => e.checkVisibility() && e.textContent.trim())"
+        ".map(e => parseFloat(getComputedStyle(e).fontSize))"
+    )
+    assert len(sizes) > 60
+    assert min(sizes) >= 10  # CSS pixels, 7.5 points
+    wide = "[...document.querySelectorAll('.plot')].map(e => e.querySelector('svg')?.clientWidth ?? 0)"
+    assert max(page.evaluate(wide)) <= 336  # 89 mm
+    page.emulate_media(media="screen")
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.wait_for_timeout(300)
+    assert page.evaluate("document.getElementById('modes').querySelector('svg').clientWidth") == before
+
+
+def test_a_machine_without_a_stable_design_of_its_own_opens_on_another(opened):
+    page = opened("all")
+    assert page.inner_text("#limit") == ""
+    page.locator("#tabs button").nth(1).click()
+    drawn(page)
+    assert "no design of its own" in page.inner_text("#limit")
+    assert "stable from" in page.inner_text("#answer")
+
+
+@pytest.mark.parametrize(
+    ("own", "plane", "words", "design"),
+    [
+        ([0.31, 0.078], 1, "", [0.31, 0.078]),
+        ([0.02, 0.01], 1, "no stable speed: this is one near it", [0.25, 0.1]),
+        ([-0.1, 0.1], 1, "not within these tilts", [0.25, 0.1]),
+        (None, 1, "no design of its own", [0.25, 0.1]),
+        (None, 0, "No design on this page", [0.25, 0.1]),
+    ],
+)
+def test_the_design_that_a_page_opens_on(opened, own, plane, words, design):
+    """A plane of nine designs, of which the one at (0, 0) has next to none and that at (0.5, 0.2) most."""
+    page = opened()
+    found = page.evaluate(
+        "async ([own, plane]) => { const { opening } = await import('bikestab/opening');"
+        " const { machines, box } = JSON.parse(document.getElementById('data').textContent).volumes[0];"
+        " const shown = { box: { ...box, lam: [0, 0.5], sigma: [0, 0.2] },"
+        " plane: { lam: [0, 0.25, 0.5], sigma: [0, 0.1, 0.2],"
+        " width: [0.1, 0, 0, 0, 2, 0, 0, 0, 3].map(x => x * plane) } };"
+        " return opening({ ...machines[0], own }, shown); }",
+        [own, plane],
+    )
+    assert words in found["words"]
+    assert bool(found["words"]) == bool(words)
+    assert [found["lam"], found["sigma"]] == pytest.approx(design)
 
 
 def test_play_moves_the_machine_and_pauses(opened):

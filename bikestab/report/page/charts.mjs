@@ -9,7 +9,8 @@ import { plotly } from "./library.mjs";
 export const CONFIG = { displayModeBar: false, responsive: true, scrollZoom: false, doubleClick: false };
 // the upper part of cividis, as in the pictures of designs: dark is narrow, yellow is wide
 const WIDTH = [[0, "#4f576c"], [0.125, "#646770"], [0.25, "#777776"], [0.375, "#8c8878"], [0.5, "#a19975"], [0.625, "#b9ab6d"], [0.75, "#d0be62"], [0.875, "#e9d34e"], [1, "#fee838"]];
-const PRINTED = 334; // CSS pixels that a chart has on a sheet of A4
+const SHOWN = { "font.size": 13, "legend.font.size": 12 };
+const PRINTED = { autosize: false, width: 334, height: 272, "font.size": 11.5, "legend.font.size": 10.5 }; // [CSS pixels] two beside each other on A4
 
 /** @param {string} name */
 export const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -19,20 +20,21 @@ export function layout(more) {
   const axis = { gridcolor: style("--line"), zerolinecolor: style("--soft"), linecolor: style("--soft"), color: style("--ink"), fixedrange: true, automargin: true };
   const { xaxis = {}, yaxis = {}, ...rest } = more;
   return {
-    paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: { color: style("--ink"), size: 13 },
+    paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: { color: style("--ink"), size: SHOWN["font.size"] },
     margin: { l: 55, r: 12, t: 8, b: 45 }, showlegend: true, dragmode: false, hovermode: "closest",
-    legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, font: { size: 12 } },
+    legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, font: { size: SHOWN["legend.font.size"] } },
     xaxis: { ...axis, ...xaxis }, yaxis: { ...axis, ...yaxis }, ...rest,
   };
 }
 
-/** Draw a chart, and tell the style by how much to shrink it in print.
- * @param {HTMLElement} at @param {object[]} traces @param {object} how @param {object} [config] */
-export async function react(at, traces, how, config = CONFIG) {
-  await plotly().react(at, traces, how, config);
-  at.style.setProperty("--wide", `${at.clientWidth}px`);
-  at.style.setProperty("--tall", `${at.clientHeight}px`);
-  at.style.setProperty("--shrink", String(PRINTED / at.clientWidth));
+/** @param {HTMLElement} at @param {object[]} traces @param {object} how @param {object} [config] */
+export const react = (at, traces, how, config = CONFIG) => plotly().react(at, traces, how, config);
+
+/** Charts with letters to be read on paper, for as long as they are printed; a browser waits for no promise there. */
+export function printing() {
+  const charts = () => /** @type {HTMLElement[]} */ ([...document.querySelectorAll(".plot.js-plotly-plot:not(#region)")]);
+  globalThis.addEventListener("beforeprint", () => charts().forEach((at) => plotly().relayout(at, at.id === "plane" ? { ...PRINTED, height: 340 } : PRINTED)));
+  globalThis.addEventListener("afterprint", () => charts().forEach((at) => plotly().relayout(at, { autosize: true, width: null, height: null, ...SHOWN })));
 }
 
 /** @param {HTMLElement} at @param {Shown} shown @param {Chosen} chosen */
@@ -58,7 +60,6 @@ export async function drawPlane(at, shown, chosen) {
     { type: "heatmap", x: lam, y: sigma, z, colorscale: WIDTH, zmin: 0, hovertemplate: "λ %{x:.4f} rad, σ %{y:.4f}: %{z:.2f} m/s stable<extra></extra>", colorbar: { title: { text: "stable [m/s]", side: "right" }, thickness: 12 } },
     ...curves, ...straight, ...own,
   ], layout({
-    legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, font: { size: 11 } },
     xaxis: { title: { text: "tilt λ [rad]" }, range: shown.box.lam, showgrid: false },
     yaxis: { title: { text: "trail σ [wheelbases]" }, range: shown.box.sigma, showgrid: false },
   }));

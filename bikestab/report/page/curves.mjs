@@ -15,6 +15,7 @@ const COLOURS = /** @type {Record<string, string>} */ ({
   "pair 2": "#cc79a7", "weave 2": "#6a8caf", "capsize 2": "#d55e00",
 });
 const NAMES = Object.keys(COLOURS);
+const GREY = "#808080"; // of a line of any colour
 
 /** Points of one name along all branches, with gaps between. @param {Modes} modes @param {string} name
  * @param {(s: [number, number], V: number) => [number, number] | null} point */
@@ -39,7 +40,7 @@ function along({ V, s, names }, name, point) {
 /** @param {Interval[]} intervals @param {number} V @param {number} top */
 const bands = (intervals, V, top) => [
   ...intervals.map((x) => ({ type: "rect", xref: "x", yref: "paper", x0: x.V1, x1: x.V2 ?? top, y0: 0, y1: 1, fillcolor: style("--stable"), line: { width: 0 }, layer: "below" })),
-  { type: "line", xref: "x", yref: "paper", x0: V, x1: V, y0: 0, y1: 1, line: { color: style("--ink"), width: 2 } },
+  { type: "line", xref: "x", yref: "paper", x0: V, x1: V, y0: 0, y1: 1, line: { color: style("--ink"), width: 2, dash: "dash" } },
 ];
 
 /** @param {Modes} modes */
@@ -62,8 +63,9 @@ export async function drawModes(at, modes, chosen, shown, high) {
       hovertemplate: `${name} ${growth ? "growth rate" : "frequency"} %{y:.3f} ${growth ? "s⁻¹" : "rad/s"} at %{x:.3f} m/s<extra></extra>`,
     };
   });
-  const kinds = /** @type {const} */ ([["growth rate", "solid", 2.6], ["angular frequency", "dot", 1.4]]).map(([name, dash, width]) => (
-    { type: "scatter", mode: "lines", name, x: [null], y: [null], line: { color: style("--ink"), width, dash } }));
+  const kinds = /** @type {const} */ ([
+    ["growth rate", "solid", 2.6, GREY], ["angular frequency", "dot", 1.4, GREY], ["chosen speed", "dash", 2, style("--ink")],
+  ]).map(([name, dash, width, color]) => ({ type: "scatter", mode: "lines", name, x: [null], y: [null], line: { color, width, dash } }));
   await react(at, [...traces, ...kinds], layout({
     shapes: bands(chosen.intervals, chosen.V, shown.box.V[1]),
     xaxis: { title: { text: "speed V [m/s]" }, range: shown.box.V },

@@ -14,7 +14,7 @@ import { changes, endsInWords, fixed, inShort, inWords, nowInWords } from "./wor
 /** @typedef {{ table: import("./twofold.mjs").Twofold[][], now: [number, number][], chosen: Chosen }} Found */
 
 /** @param {Entry} machine @param {Chosen} chosen */
-export const command = (machine, { lam, sigma }) => `bikestab vrange ${machine.command} --lam ${lam} --sigma=${sigma}`;
+export const command = (machine, { lam, sigma }) => `bikestab vrange ${machine.command} --lam=${lam} --sigma=${sigma}`;
 
 /** @param {Interval[]} intervals */
 const told = (intervals) => `${intervals.length ? "stable " : ""}${inWords(intervals)}`;

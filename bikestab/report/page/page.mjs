@@ -11,6 +11,7 @@ import { about, answer, around, command } from "./labels.mjs";
 import { unpacked } from "./library.mjs";
 import { closer, follow } from "./modes.mjs";
 import { pushed } from "./motion.mjs";
+import { opening } from "./opening.mjs";
 import * as region from "./region.mjs";
 import { save } from "./saving.mjs";
 import { tableOf } from "./table.mjs";
@@ -141,9 +142,10 @@ function open(index) {
   state.sweep = volume().sweep.map(() => 0);
   const { box } = volume();
   const { own } = machine();
-  const inside = own && within(box, own[0], own[1]);
-  [state.lam, state.sigma] = inside ? own : [0.5 * (box.lam[0] + box.lam[1]), 0.5 * (box.sigma[0] + box.sigma[1])];
-  element("own").hidden = !inside;
+  element("own").hidden = !(own && within(box, own[0], own[1]));
+  const { lam, sigma, words } = opening(machine(), shown());
+  [state.lam, state.sigma] = [lam, sigma];
+  element("limit").textContent = words;
   const [first] = intervalsOf(tableOf(machine(), state.lam, state.sigma));
   const middle = first ? 0.5 * (first.V1 + Math.min(first.V2 ?? Infinity, box.V[1])) : 0.5 * (box.V[0] + box.V[1]);
   state.V = Math.min(Math.max(middle, box.V[0]), box.V[1]);
@@ -185,6 +187,7 @@ function listen() {
   for (const format of /** @type {const} */ (["png", "svg"])) {
     element(format).addEventListener("click", () => save(format));
   }
+  charts.printing();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
 }
 
