@@ -6,7 +6,7 @@ Signs are those of Meijaard et al. (2007): roll, steer, yaw and the way sideways
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +20,9 @@ from bikestab.model import Floats, Model, canonical_matrices
 from bikestab.modes import follow
 
 STATES = ("roll", "steer", "roll_rate", "steer_rate")  # rad and rad/s
+LARGE = 0.5  # rad, beyond which sines and angles are not nearly the same
+QUARTER = math.pi / 2  # rad: what rolls beyond it has fallen, and no fork turns further
+_ENOUGH = 250  # times, at least, until a quarter turn
 _POOR = 1e5  # condition of the eigenvectors above which eigenvalues have all but met: 1e-11 is left
 _SERIES = 0.1  # |s t| below which φ2 is summed, to 1e-16
 
@@ -124,6 +127,27 @@ def motion(
     if not all(np.all(np.isfinite(values)) for values in result[1:]):
         raise InputError("it grows beyond all numbers", key=("t",), hint="ask for a shorter time")
     return result
+
+
+def leaves(found: Motion, angle: float = LARGE) -> float | None:
+    """The first time [s] at which roll or steer is beyond an angle [rad], if there is one."""
+    size = np.abs(found.states[:2]).max(axis=0)
+    beyond = np.flatnonzero(size > angle)
+    if not len(beyond):
+        return None
+    k = int(beyond[0])
+    return float(np.interp(angle, size[k - 1 : k + 1], found.t[k - 1 : k + 1])) if k else float(found.t[0])
+
+
+def before_a_quarter_turn(motion: Callable[[Floats], Motion], until: float, times: int = 501) -> Motion:
+    """A motion, given for times, from 0 to ``until`` [s], or to where roll or steer is a quarter turn."""
+    found = motion(np.linspace(0, until, times))
+    while (end := leaves(found, QUARTER)) is not None:
+        shown = int(np.searchsorted(found.t, end))
+        if shown >= _ENOUGH or not shown:
+            return motion(np.append(found.t[:shown], end))
+        found = motion(np.linspace(0, found.t[shown], times))
+    return found
 
 
 def _initial(push: Mapping[str, float]) -> Floats:

@@ -9,21 +9,26 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bikestab.model import Floats
-from bikestab.motion import Motion
+from bikestab.motion import LARGE, Motion, leaves
 from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import Curve, Line, label_curves, lines_for
 
 _REAR, _FRONT = Line("#0072b2", "-"), Line("#d55e00", (0, (5, 1.5)))  # and of what they do: roll and steer
-_SMALL = 0.5  # rad: of larger angles the linear equations say little
-_LARGE = 2 * _SMALL  # of several machines one that moves more leaves the picture, not to flatten the others
+_LARGE = (
+    2 * LARGE
+)  # rad: of several machines one that moves more leaves the picture, not to flatten the others
+_LEFT = "0.92"  # where the linear model has been left
 Drawn = tuple[str, Floats, Floats, Line]
 
 
 @own_settings()
-def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
-    """A machine by name, and what pushed it: states by name, in rad and rad/s."""
+def draw_motion(name: str, found: Motion, until: float, push: Mapping[str, float]) -> Figure:
+    """A machine by name, and what pushed it: states by name, in rad and rad/s.
+
+    Its motion to ``until`` [s], or to a quarter turn before it.
+    """
     figure = Figure(figsize=(6.2, 5.4), layout="constrained")
     top, road = figure.subplots(2, 1)
     roll, steer = found.states[:2]
@@ -34,9 +39,12 @@ def draw_motion(name: str, found: Motion, push: Mapping[str, float]) -> Figure:
     top.set_ylabel("to the right [rad]")
     road.set_xlabel("along the road [m]")
     road.set_ylabel("to the right [m]")
-    large = float(np.abs(found.states[:2]).max()) > _SMALL
-    doubt = [f"beyond some {_SMALL:g} rad the linear equations do not hold"] if large else []
-    set_title(top, f"{short(name)} at {found.V:g} m/s after a push: {_pushed(push)}", *doubt)
+    left = leaves(found)
+    if left is not None:
+        for ax, place in ((top, left), (road, found.V * left)):
+            ax.axvspan(place, ax.get_xlim()[1], color=_LEFT, lw=0, zorder=0)
+    words = f"{short(name)} at {found.V:g} m/s after a push: {_pushed(push)}"
+    set_title(top, words, *_doubts(left, float(found.t[-1]), until))
     set_title(road, "Paths of the wheels on the road, from above; sideways enlarged")
     return figure
 
@@ -66,7 +74,7 @@ def draw_motions(machines: Sequence[tuple[str, Motion]], push: Mapping[str, floa
     road.set_xlabel("along the road [m]")
     road.set_ylabel("rear wheel to the right [m]")
     what = f"at {machines[0][1].V:g} m/s " if len(speeds) == 1 else ""
-    doubt = [f"beyond some {_SMALL:g} rad the linear equations do not hold"] if max(most) > _SMALL else []
+    doubt = [f"beyond some {LARGE:g} rad the linear equations do not hold"] if max(most) > LARGE else []
     words = f"{f'{short(name)} ' if name else ''}{what}after a push: {_pushed(push)}"
     set_title(roll, words if name else words.capitalize(), *doubt)
     set_title(road, "Path of the rear wheel on the road, from above; sideways enlarged")
@@ -88,8 +96,18 @@ def _curves(ax: Axes, drawn: Sequence[Drawn], within: Sequence[bool] = (), *, do
     label_curves(ax, [Curve(name, x, y, line.color) for name, x, y, line in drawn])
 
 
+def _doubts(left: float | None, end: float, until: float) -> list[str]:
+    """What is not as a machine moves, and what is not drawn."""
+    if left is None:
+        return []
+    words = f"shaded: leaves the linear model at {left:.3g} s (beyond {LARGE:g} rad)"
+    return [
+        words + (f"; not drawn: from a quarter turn at {end:.3g} s to {until:g} s" if end < until else "")
+    ]
+
+
 def _pushed(push: Mapping[str, float]) -> str:
     units = {True: "rad/s", False: "rad"}
     return ", ".join(
-        f"{key.replace('_', ' ')} = {value:g} {units[key.endswith('rate')]}" for key, value in push.items()
+        f"{key.replace('_', ' ')} = {value:.4g} {units[key.endswith('rate')]}" for key, value in push.items()
     )

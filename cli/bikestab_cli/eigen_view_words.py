@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from bikestab.motion import Motion, Shapes
 
 _ROWS = 11  # of a motion
-_LARGE = 0.5  # rad, beyond which sines and angles are not nearly the same
 _MOST = 60  # values of a parameter
 
 
@@ -37,11 +36,16 @@ def told_shapes(machine: Chosen, design: Any, found: Shapes, model: Model) -> st
 
 def _polar(phasor: complex) -> list[str]:
     phase = math.degrees(cmath.phase(phasor))
-    return [f"{abs(phasor):.6f}", f"{0.0 if abs(phase) < 1e-9 else phase:z.3f}"]
+    return [
+        f"{abs(phasor):.6f}",
+        f"{0.0 if abs(phase) < 1e-9 else phase:z.3f}".replace("-180.000", "180.000"),
+    ]
 
 
 def told_motion(machine: Chosen, design: Any, found: Motion, push: Mapping[str, float], model: Model) -> str:
     """The motion at a few of its times."""
+    from bikestab.motion import LARGE, leaves
+
     pushed = ", ".join(f"{name} = {value:.6g} {_unit(name)}" for name, value in push.items())
     last = len(found.t) - 1
     rows = []
@@ -53,8 +57,9 @@ def told_motion(machine: Chosen, design: Any, found: Motion, push: Mapping[str, 
     names = ["t\n[s]", "roll\n[rad]", "steer\n[rad]", "yaw\n[rad]"]
     names += ["along\n[m]", "rear wheel\n[m]", "front wheel\n[m]"]
     note = "all positive to the right; the wheels' contacts are so far to the right of the line ridden before"
-    if abs(found.states[:2]).max() > _LARGE:
-        note += f"\nthe model is linear: beyond about {_LARGE:g} rad these angles are not those of a machine"
+    if (left := leaves(found)) is not None:
+        note += f"\nthe model is linear: beyond about {LARGE:g} rad these angles are not those of a machine"
+        note += f"; it leaves it at {left:.3g} s"
     return _whole(machine, design, model, [f"at {found.V:.6g} m/s after {pushed}", table(names, rows), note])
 
 

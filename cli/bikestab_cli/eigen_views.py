@@ -60,7 +60,7 @@ def _drawn(found: Sequence[Shown], view: View) -> Any:
 
         if others:
             return draw_motions(each, view.push, common)
-        return draw_motion(first.machine.words, first.found, view.push)
+        return draw_motion(first.machine.words, first.found, view.until, view.push)
     from bikestab.plot.against import draw_against
     from bikestab.plot.axes import label_of
     from bikestab.plot.growth import draw_growth_against
@@ -110,15 +110,17 @@ def _motion(machine: Chosen, design: Any, V: float, view: View, model: Model) ->
     import numpy as np
 
     from bikestab.export.motions import MOTION, motion_blocks
-    from bikestab.motion import motion
+    from bikestab.motion import before_a_quarter_turn, motion
 
-    times = np.linspace(0, view.until, _TIMES)
-    found = motion(machine.bicycle, V, view.push, times, design["lam"], design["sigma"], model=model)
+    def at(times: Any) -> Any:
+        return motion(machine.bicycle, V, view.push, times, design["lam"], design["sigma"], model=model)
 
+    found = at(np.linspace(0, view.until, _TIMES))
     columns = next(motion_blocks(found))
     record = {**design, "at": V, "push": view.push, "motion": {k: x.tolist() for k, x in columns.items()}}
     text = told_motion(machine, design, found, view.push, model)
-    return Shown(machine, found, [record], text, MOTION, lambda: motion_blocks(found))
+    drawn = before_a_quarter_turn(at, view.until)
+    return Shown(machine, drawn, [record], text, MOTION, lambda: motion_blocks(found))
 
 
 def _speed(bicycle: Any, lam: float, sigma: float, view: View, model: Model) -> float:

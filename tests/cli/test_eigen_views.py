@@ -11,10 +11,11 @@ import pytest
 import bikestab as bs
 from bikestab.against import modes_against
 from bikestab.motion import motion, shapes
+from bikestab.plot import files
 from bikestab.plot.against import draw_against
 from bikestab.plot.loci import draw_loci
 from bikestab.plot.locus import draw_locus
-from bikestab.plot.motion import draw_motions
+from bikestab.plot.motion import draw_motion, draw_motions
 from bikestab.plot.shapes import draw_shapes
 from bikestab.variants import parameter_of
 
@@ -42,7 +43,8 @@ def test_shapes(bikestab):
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")
     assert [complex(float(r["steer_re"]), float(r["steer_im"])) for r in rows("a.csv")] == [*found.phasors[1]]
     texts = [text.get_text() for text in draw_shapes([("mine", found)]).axes[1].texts]
-    assert texts[1:] == ["", "steer 0.386"] or texts[-1].startswith("steer 0.")
+    assert sum(text.startswith("steer 0.") for text in texts) == 1
+    assert {"0.5", "1"} <= {*texts}  # of the rings
 
 
 def test_the_speed_is_by_default_in_the_middle(bikestab):
@@ -256,6 +258,39 @@ def test_a_motion_that_a_linear_model_cannot_tell(bikestab):
     sentence = "the model is linear: beyond about 0.5 rad"
     assert sentence in bikestab(*args, "20")[1]
     assert sentence not in bikestab(*args, "1")[1]
+
+
+def test_a_motion_is_drawn_until_a_quarter_turn(bikestab, monkeypatch):
+    """Where it leaves the linear model is said; the table is as long as was asked."""
+    drawn = []
+    monkeypatch.setattr(files, "save", lambda figure, path: drawn.append(figure))
+    args = ("eigen", *BENCHMARK, "--push", "roll_rate=0.5", "--at", "3.8", "--until", "30", "--csv", "a.csv")
+    assert bikestab(*args, "-o", "a.png")[0] == 0
+    assert float(rows("a.csv")[-1]["t"]) == 30
+    top, road = drawn[0].axes
+    lines = [line for line in (*top.lines, *road.lines) if len(line.get_xdata()) > 2]
+    t, V = lines[0].get_xdata(), 3.8
+    exact = motion(BIKE, V, {"roll_rate": 0.5}, t)
+    for line, values in zip(lines, (*exact.states[:2], exact.y, exact.y_front), strict=True):
+        assert line.get_ydata().tolist() == values.tolist()
+    size = np.abs(exact.states[:2]).max(axis=0)
+    assert len(t) > 200
+    assert size[:-1].max() < math.pi / 2
+    assert size[-1] == pytest.approx(math.pi / 2, rel=1e-3)
+    left = t[np.argmax(size > 0.5)]
+    (shaded,) = top.patches
+    assert shaded.get_x() == pytest.approx(left, abs=0.02)
+    title = " ".join(top.get_title().split())
+    assert f"leaves the linear model at {shaded.get_x():.3g} s (beyond 0.5 rad)" in title
+    assert f"from a quarter turn at {t[-1]:.3g} s to 30 s" in title
+
+
+def test_all_of_a_motion_is_drawn_where_angles_are_small():
+    drawn = draw_motion("own", motion(BIKE, 5.0, {"roll": 0.1}, np.linspace(0, 4, 50)), 4.0, {"roll": 0.1})
+    top, road = drawn.axes
+    assert (top.get_xlim(), road.get_xlim()) == ((0, 4), (0, 20))
+    assert not top.patches
+    assert top.get_title() == "own at 5 m/s after a push: roll = 0.1 rad"
 
 
 def test_curves_are_drawn_in_one_piece_however_many_values_there_are():

@@ -25,6 +25,7 @@ COMMANDS = [
     "eigen --bicycle meijaard2007 --shapes",
     "eigen --bicycle sharp1971 --shapes --at 0.1",
     "eigen --bicycle kooijman2011 --push roll_rate=0.5 --at 4.5",
+    "eigen --bicycle meijaard2007 --push roll_rate=0.5,steer=2deg --at 1 --until 30",
     "eigen --bicycle kooijman2011 --over delta=0:5:11 --over m1=5:15:3 --at 4.5",
     f"eigen {ALL} --over delta=0:8:5 --at 7",
     f"eigen {ALL} --push roll_rate=0.5 --at 7",
