@@ -7,12 +7,12 @@ from pathlib import Path
 
 import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
-from bikestab_cli.options import NAME, PICTURE, check_files, json_option
+from bikestab_cli.options import BICYCLE, PICTURE, check_files, json_option
 from bikestab_cli.output import WIDTH, print_json, tell_file
 
 
 @click.command("bicycles")
-@click.argument("name", type=NAME, required=False)
+@click.argument("name", type=BICYCLE, required=False)
 @click.option(
     "-o", "--output", type=PICTURE, metavar="FILE",
     help="Draw NAME, or the bicycle in a file, from its side: PNG, PDF or SVG.",

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from bikestab_cli.chosen import Given, box_chosen, design_options
 from bikestab_cli.options import (
+    BICYCLE,
     DEFAULT_BICYCLE,
     FILE,
     NAME,
@@ -44,7 +45,7 @@ MOST_CELLS = 512
 @click.option(
     "--bicycle",
     "bicycle_name",
-    type=NAME,
+    type=BICYCLE,
     metavar="NAME|FILE",
     help=f"A bicycle that comes with bikestab, or a file.  [default: {DEFAULT_BICYCLE}, or the config's]",
 )
@@ -144,13 +145,14 @@ def command(
 
         with written(certificate) as part:
             part.write_text(proof.certificate(__version__) + "\n", encoding="utf-8")
-        tell_file(certificate)
     if as_json:
-        print_json(proof.record())
+        print_json(proof.record() | ({"files": {"certificate": certificate}} if certificate else {}))
     else:
         from bikestab_cli.certify_words import told
 
         click.echo(told(proof))
+        if certificate:
+            tell_file(certificate)
 
 
 def _proof(box: Box, jobs: int | None, work: int | None, certificate: str | None, quiet: bool) -> Proof:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
 from bikestab_cli.options import (
-    NAME,
+    BICYCLE,
     PICTURE,
     at_option,
     check_files,
@@ -50,8 +50,8 @@ class _Tolerance(click.ParamType):
 
 
 @click.command("compare")
-@click.argument("one", type=NAME, metavar="A")
-@click.argument("other", type=NAME, metavar="B")
+@click.argument("one", type=BICYCLE, metavar="A")
+@click.argument("other", type=BICYCLE, metavar="B")
 @click.option(
     "--within", type=_Tolerance(), metavar="PERCENT|SPEED",
     help="Exit with 1 if an end of the stable speeds or the stable region moved by more: 1%, or 0.05.",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import click
@@ -25,6 +27,21 @@ def completed(incomplete: str, *, bicycles: bool) -> list[CompletionItem]:
         return [CompletionItem(incomplete, type="file")]
     there = sorted(glob(f"{escape(incomplete)}*"))  # noqa: PTH207  # as it is typed
     return [CompletionItem(name) for name in (*fitting, *there)]
+
+
+def parameters(ctx: click.Context, _: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Names of parameters: of the bicycle that was typed, or of both notations."""
+    from click.shell_completion import CompletionItem
+
+    from bikestab.bicycle import PAPER, Bicycle
+    from bikestab.notation import MEIJAARD
+
+    names: Collection[str] = {**MEIJAARD, **PAPER}
+    if typed := ctx.params.get("bicycle_name"):
+        with suppress(Exception):  # a file that is no bicycle: the command will say so
+            names = Bicycle.load(typed if isinstance(typed, str) else typed[-1]).notation
+    fitting = (name for name in {*names, "head_angle", "trail", "offset"} if name.startswith(incomplete))
+    return [CompletionItem(f"{name}=") for name in sorted(fitting, key=str.casefold)]
 
 
 @click.command("completion")

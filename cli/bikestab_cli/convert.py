@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
-from bikestab_cli.options import FILE, NAME, warn
+from bikestab_cli.options import BICYCLE, FILE, NAME, warn
 
 
 @click.command("convert")
-@click.argument("bicycle_name", type=NAME, metavar="NAME|FILE")
+@click.argument("bicycle_name", type=BICYCLE, metavar="NAME|FILE")
 @click.option(
     "-o",
     "--output",

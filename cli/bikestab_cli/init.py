@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
-from bikestab_cli.options import DEFAULT_BICYCLE, FILE, NAME
+from bikestab_cli.options import BICYCLE, DEFAULT_BICYCLE, FILE
 
 
 @click.command("init")
@@ -13,7 +13,7 @@ from bikestab_cli.options import DEFAULT_BICYCLE, FILE, NAME
 @click.option(
     "--bicycle",
     "name",
-    type=NAME,
+    type=BICYCLE,
     metavar="NAME|FILE",
     default=DEFAULT_BICYCLE,
     show_default=True,

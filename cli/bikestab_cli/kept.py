@@ -36,7 +36,7 @@ def _inputs() -> Iterator[str]:
 
     context = click.get_current_context()
     for param in context.command.params:
-        if param.name == "rider" or (isinstance(param.type, Name) and not param.type.of_file):
+        if param.name == "rider" or (isinstance(param.type, Name) and "file" not in param.type.of):
             value = context.params.get(param.name) or context.meta.get(f"bikestab.{param.name}") or ()
             for each in (value,) if isinstance(value, str) else value:
                 yield from (str(path) for path in (Path(each), Path(each, "volume.h5")) if path.is_file())

@@ -6,10 +6,12 @@ import os
 import re
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from bikestab_cli.completion import parameters
 from bikestab_cli.parameters import deviations_given, over_ends, over_values, values_given
 from bikestab_cli.quantities import Quantity
 from bikestab_cli.riders import rider_option, with_its_rider
@@ -30,17 +32,16 @@ class Name(click.ParamType):
 
     name = "text"
 
-    def __init__(self, *, of_file: bool = False, of_picture: bool = False) -> None:
-        self.of_file = of_file
-        self.of_picture = of_picture
+    def __init__(self, *of: str) -> None:
+        self.of = of
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         text = str(value)
         if not text.strip():
             self.fail(f"{text!r} is no name", param, ctx)
-        if self.of_file and (text.endswith(("/", os.sep)) or Path(text).name in ("", "..")):
+        if "file" in self.of and (text.endswith(("/", os.sep)) or Path(text).name in ("", "..")):
             self.fail(f"{text!r} is a folder, not a file to write", param, ctx)
-        if self.of_picture and Path(text).suffix.lower() not in PICTURES:
+        if "picture" in self.of and Path(text).suffix.lower() not in PICTURES:
             self.fail(f"{text!r} has no ending {', '.join(PICTURES[:-1])} or {PICTURES[-1]}", param, ctx)
         return text
 
@@ -48,16 +49,16 @@ class Name(click.ParamType):
         """Files; where a bicycle is wanted those that come with bikestab too."""
         from bikestab_cli.completion import completed
 
-        return completed(incomplete, bicycles=param.name == "bicycle_name")
+        return completed(incomplete, bicycles="bicycle" in self.of)
 
 
-NAME, FILE, PICTURE = Name(), Name(of_file=True), Name(of_file=True, of_picture=True)
+NAME, FILE, PICTURE, BICYCLE = Name(), Name("file"), Name("file", "picture"), Name("bicycle")
 
 
 def machine_options(function: F) -> F:
     """--bicycle, --model and --delta."""
     return click.option(
-        "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", default=DEFAULT_BICYCLE,
+        "--bicycle", "bicycle_name", type=BICYCLE, metavar="NAME|FILE", default=DEFAULT_BICYCLE,
         show_default=True,
         help="A bicycle that comes with bikestab (see 'bikestab bicycles'), a file of one, or a volume.",
     )(equation_options(function))  # fmt: skip
@@ -80,32 +81,28 @@ def equation_options(function: F) -> F:
     return function
 
 
-at_option = click.option(
-    "--at", "machine", multiple=True, metavar="NAME=VALUE", callback=values_given,
+_of_parameters = partial(click.option, multiple=True, shell_complete=parameters)
+at_option = _of_parameters(
+    "--at", "machine", metavar="NAME=VALUE", callback=values_given,
     help="Which machine of a sweep, e.g. --at delta=1; once for each of its axes.",
 )  # fmt: skip
-
-over_option = click.option(
-    "--over", "over", multiple=True, metavar="NAME=START:STOP:NUM", callback=over_values,
+over_option = _of_parameters(
+    "--over", "over", metavar="NAME=START:STOP:NUM", callback=over_values,
     help="Values of a parameter of the bicycle, e.g. --over mB=60:110:6 --over offset=0:80mm:5; one or two.",
 )  # fmt: skip
-
-over_ends_option = click.option(
-    "--over", "over", multiple=True, metavar="NAME=START:STOP", callback=over_ends,
+over_ends_option = _of_parameters(
+    "--over", "over", metavar="NAME=START:STOP", callback=over_ends,
     help="Search over these two parameters instead, e.g. --over mB=60:110 --over offset=0:80mm.",
 )  # fmt: skip
-
-free_option = click.option(
-    "--free", "free", multiple=True, metavar="NAME=START:STOP", callback=over_ends,
+free_option = _of_parameters(
+    "--free", "free", metavar="NAME=START:STOP", callback=over_ends,
     help="A parameter that the search may choose, e.g. --free lam=0.1:0.4 --free trail=2cm:15cm; up to six.",
 )  # fmt: skip
-
-sd_option = click.option(
-    "--sd", "deviations", multiple=True, metavar="NAME=VALUE|file", callback=deviations_given,
+sd_option = _of_parameters(
+    "--sd", "deviations", metavar="NAME=VALUE|file", callback=deviations_given,
     help="A parameter's standard deviation, e.g. --sd mB=1.5 --sd trail=5mm; file: all that the file gives "
     "and no other --sd does.",
 )  # fmt: skip
-
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 
 

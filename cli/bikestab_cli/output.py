@@ -9,6 +9,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 import click
+from bikestab_cli.streams import visible
 
 from bikestab.files import to_stdout
 
@@ -39,7 +40,7 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], fold: int | None =
 
     The column ``fold`` is of words: aligned to the left, and wrapped to what the others leave of 80 columns.
     """
-    cells = [[cell.split("\n") for cell in row] for row in (head, *rows)]
+    cells = [[_as_shown(cell).split("\n") for cell in row] for row in (head, *rows)]
     widths = [max(columns(line) for row in cells for line in row[i]) for i in range(len(head))]
     if fold is not None:
         widths[fold] = min(
@@ -56,6 +57,11 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], fold: int | None =
             ]
             lines.append("  ".join(shown).rstrip())
     return "\n".join(lines)
+
+
+def _as_shown(text: str) -> str:
+    """The text as stdout will show it: its spelling for a terminal without these letters is longer."""
+    return getattr(sys.stdout, "spelt", str)(visible(text))
 
 
 def columns(text: str) -> int:
@@ -96,9 +102,9 @@ def prose(text: str) -> str:
     """Lines of words, each wrapped to 80 columns, and indented where it goes on; no number is cut off."""
     import re
 
-    tied = re.sub(r" (?==|\.\.\.|m/s|m²|rad|1/s|kg)|(?<==) |(?<=\.\.\.) ", "\N{NO-BREAK SPACE}", text)
+    tied = re.sub(r" (?==|\.\.\.|m/s|m[²^]|rad|1/s|kg)|(?<==) |(?<=\.\.\.) ", "\xa0", _as_shown(text))
     lines = (part for line in tied.split("\n") for part in _wrapped(line, WIDTH, " ", "  "))
-    return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")
+    return "\n".join(lines).replace("\xa0", " ")  # a space that does not break
 
 
 def certain(value: float, error: float | None, most: int = 12, style: str = "f") -> str:

@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
-from bikestab_cli.shapes import MODEL, NUMBERS, either, flag, maybe, named, num, record, some, whole, words
+from bikestab_cli.shapes import (
+    FILES,
+    MODEL,
+    NUMBERS,
+    either,
+    flag,
+    maybe,
+    named,
+    num,
+    record,
+    some,
+    whole,
+    words,
+)
 
 PAIR = {"type": "array", "items": NUMBERS, "minItems": 2, "maxItems": 2}
 LARGEST = record(
@@ -29,6 +42,7 @@ _PROOF = record(
     ),
     stopped=flag("at the limit of --work"),
     counterexample={"type": ["object", "null"], "description": "a point that is not as the rest"},
+    files=FILES,
 )  # fmt: skip
 _SAME = ("model", "box", "cells", "verdict", "proved_stable", "proved_unstable", "undecided")
 _VERIFIED = {

@@ -8,7 +8,8 @@ from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
-from bikestab_cli.options import DEFAULT_BICYCLE, NAME, equation_options, load_bicycle, tell_which, warn
+from bikestab_cli.completion import parameters
+from bikestab_cli.options import BICYCLE, DEFAULT_BICYCLE, equation_options, load_bicycle, tell_which, warn
 from bikestab_cli.parameters import parameter
 
 from bikestab.errors import InputError
@@ -81,13 +82,14 @@ def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -
 def several_machines(function: F) -> F:
     """--bicycle and --set, each more than once, --model and --delta."""
     named = click.option(
-        "--bicycle", "bicycle_name", type=NAME, metavar="NAME|FILE", multiple=True,
+        "--bicycle", "bicycle_name", type=BICYCLE, metavar="NAME|FILE", multiple=True,
         default=(DEFAULT_BICYCLE,), show_default=True,
         help="A bicycle that comes with bikestab (see 'bikestab bicycles'), a file of one, or a volume; "
         "several.",
     )  # fmt: skip
     changed = click.option(
         "--set", "changes", metavar="NAME=VALUE,...", multiple=True, callback=_values,
+        shell_complete=parameters,
         help="Other values of a parameter in the bicycle's notation, e.g. mB=60,75,100 or rider.m=60,100; c "
         "is the trail among the 25 parameters, the wheelbase in the paper's notation.",
     )  # fmt: skip

@@ -75,7 +75,9 @@ WHOSE = {
 OVER = named(NUMBERS, "the values of --over, in SI units")
 OPTIONAL = ("bicycle", "set", "reason")
 MODEL = {"enum": ["refined", "unrefined"], "description": "the paper's equations, or those before them"}
-FILES = named(TEXTS, "files that were written, by what they are: csv, picture, junit; left out without any")
+FILES = named(
+    TEXTS, "files that were written, by what they are: certificate, csv, junit, picture; left out without any"
+)
 
 
 def answer(result: Schema, **head: Schema) -> Schema:

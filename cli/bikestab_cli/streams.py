@@ -62,11 +62,15 @@ class Visible:
     def write(self, text: str) -> int:
         return self.as_it_is(visible(text))
 
+    def spelt(self, text: str) -> str:
+        """The text in letters that the stream can show."""
+        return (
+            text if self.shows.startswith("utf") else text.encode(self.shows, "bikestab").decode(self.shows)
+        )
+
     def as_it_is(self, text: str) -> int:
         """Write control characters too."""
-        if not self.shows.startswith("utf"):
-            text = text.encode(self.shows, "bikestab").decode(self.shows)
-        return self.stream.write(text)
+        return self.stream.write(self.spelt(text))
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.stream, name)

@@ -26,6 +26,9 @@ def test_commands_options_and_bicycles():
     assert completed("bikestab vra") == ["plain,vrange"]
     assert completed("bikestab vrange --bicycle mei") == ["plain,meijaard2007"]
     assert completed("bikestab vrange --bicycle nothing") == ["file,nothing"]
+    assert completed("bikestab compare mei") == completed("bikestab compare sharp1971 mei")
+    for words in ("compare", "bicycles", "convert", "init --bicycle", "certify --bicycle"):
+        assert completed(f"bikestab {words} mei") == ["plain,meijaard2007"]
     assert "plain,vrange" in completed("bikestab schema v")
     assert completed("bikestab scan con") == ["file,con"]
     assert "plain,--lam" in completed("bikestab eigen --la")
@@ -40,6 +43,16 @@ def test_bicycles_and_files_together(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mein[1].yaml").touch()
     assert completed("bikestab vrange --bicycle me") == ["plain,meijaard2007", "plain,mein[1].yaml"]
+
+
+def test_names_of_parameters():
+    own = "bikestab vrange --bicycle meijaard2007"
+    assert completed(f"{own} --set IB") == [f"plain,IB{axes}=" for axes in ("xx", "xz", "yy", "zz")]
+    assert completed(f"{own} --over head") == ["plain,head_angle="]
+    assert completed("bikestab design --bicycle none.yaml --free m") == [
+        "plain,m1=", "plain,m2=", "plain,mB=", "plain,mF=", "plain,mH=", "plain,mR=",
+    ]  # fmt: skip
+    assert completed(f"{own} --sd tr") == ["plain,trail="]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

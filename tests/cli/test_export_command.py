@@ -116,7 +116,8 @@ def test_scale_of_ones_own(bikestab, volumes):
 
 def test_an_existing_file_is_replaced(bikestab, volumes, tmp_path):
     (tmp_path / "i.csv").write_text("old")
-    assert bikestab("export", volumes["1981"], "--intervals", "i.csv")[0] == 0
+    code, _, err = bikestab("export", volumes["1981"], "--intervals", "i.csv")
+    assert code == 0, err
     assert (tmp_path / "i.csv").read_text().startswith("lam,sigma,")
 
 

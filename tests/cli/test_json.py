@@ -46,7 +46,7 @@ CASES = [
     ("sensitivity", *BENCHMARK, "--bicycle", "dikarev1981", "-o", "a.png"),
     ("sensitivity", "--lam", "0.1", "--sigma", "0.08"),
     ("certify", *BENCHMARK, *BOX, "--V", "4.9:5"),
-    ("certify", *BENCHMARK, *BOX, "--V", "3:5"),
+    ("certify", *BENCHMARK, *BOX, "--V", "3:5", "-o", "proof.json"),
     ("check", "tiny.yaml", "none.yaml", "--junit", "a.xml"),
     ("compare", "meijaard2007", "sharp1971", "--within", "1%"),
     ("compare", "dikarev1981", "tiny.yaml", "--at", "delta=0"),

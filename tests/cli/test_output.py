@@ -1,11 +1,15 @@
 """Numbers are printed with the digits that are certain, and no more."""
 
+import io
 import json
 import math
 import re
+import sys
 
+import click
 import pytest
 from bikestab_cli.output import certain, columns, prose, table
+from bikestab_cli.streams import Visible
 from hypothesis import given
 from hypothesis import strategies as st
 from wcwidth import wcswidth
@@ -103,3 +107,14 @@ def test_the_damping_of_several_machines_is_told(bikestab):
         "refined model, damping 2 kg m²/s\n"
     )
     assert bikestab("vrange", *several, *design, "--set", "delta=1,2")[1].startswith("refined model\n")
+
+
+def test_tables_stay_aligned_where_letters_are_spelt(monkeypatch):
+    """A terminal of ASCII gets ``[ deg]`` for ``[°]``: columns are counted as they are shown."""
+    ascii_only = io.TextIOWrapper(io.BytesIO(), "ascii")
+    monkeypatch.setattr(sys, "stdout", Visible(ascii_only))
+    click.echo(table(["head\n[°]", "λ\x1b"], [["72", "0.3"]]))
+    click.echo(prose("λ = 0.3 rad at 3 kg m²/s"))
+    sys.stdout.flush()
+    shown = ascii_only.buffer.getvalue().decode().splitlines()
+    assert shown == ["  head  lam\\u001b", "[ deg]", "    72        0.3", "lam = 0.3 rad at 3 kg m^2/s"]
