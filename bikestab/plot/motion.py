@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -53,13 +52,13 @@ def draw_motion(name: str, found: Motion, until: float, push: Mapping[str, float
 def draw_motions(machines: Sequence[tuple[str, Motion]], push: Mapping[str, float], name: str = "") -> Figure:
     """The same of several machines, a curve each for roll, steer, rear wheel; ``name`` is common to all.
 
+    Each to the same time, or to a quarter turn before it.
+
     Raises InputError for more machines than there are lines that differ.
     """
     figure = Figure(figsize=(6.2, 7.4), layout="constrained")
     roll, steer, road = figure.subplots(3, 1)
     lines = lines_for(len(machines))
-    most = [float(np.abs(found.states[:2]).max()) for _, found in machines]
-    calm = [size <= max(_LARGE, min(most)) for size in most]
     speeds = {found.V for _, found in machines}
     names = [each if len(speeds) == 1 else f"{each} at {found.V:.4g} m/s" for each, found in machines]
     for ax, x, y in (
@@ -67,30 +66,31 @@ def draw_motions(machines: Sequence[tuple[str, Motion]], push: Mapping[str, floa
         (steer, [m.t for _, m in machines], [m.states[1] for _, m in machines]),
         (road, [m.x for _, m in machines], [m.y for _, m in machines]),
     ):
-        _curves(ax, list(zip(names, x, y, lines, strict=True)), calm, down=ax is road)
+        _curves(ax, list(zip(names, x, y, lines, strict=True)), down=ax is road)
     for ax, what in ((roll, "roll"), (steer, "steer")):
         ax.set_xlabel("time [s]")
         ax.set_ylabel(f"{what} to the right [rad]")
     road.set_xlabel("along the road [m]")
     road.set_ylabel("rear wheel to the right [m]")
     what = f"at {machines[0][1].V:g} m/s " if len(speeds) == 1 else ""
-    doubt = [f"beyond some {LARGE:g} rad the linear equations do not hold"] if max(most) > LARGE else []
+    doubt = [f"beyond {LARGE:g} rad the linear model does not hold"]
+    doubt += (
+        ["a curve ends at a quarter turn"] if len({float(found.t[-1]) for _, found in machines}) > 1 else []
+    )
+    doubt = [", and ".join(doubt)] if any(leaves(found) is not None for _, found in machines) else []
     words = f"{f'{short(name)} ' if name else ''}{what}after a push: {_pushed(push)}"
     set_title(roll, words if name else words.capitalize(), *doubt)
     set_title(road, "Path of the rear wheel on the road, from above; sideways enlarged")
     return figure
 
 
-def _curves(ax: Axes, drawn: Sequence[Drawn], within: Sequence[bool] = (), *, down: bool = False) -> None:
-    """Curves with their names; the limits are those of the ones ``within``, and of all without it."""
+def _curves(ax: Axes, drawn: Sequence[Drawn], *, down: bool = False) -> None:
+    """Curves with their names."""
     for _, x, y, line in drawn:
         ax.plot(x, y, color=line.color, ls=line.ls, lw=1.8)
     ax.axhline(0, color="0.5", lw=0.7, zorder=1)
     ax.set_xlim(0.0, max(float(x[-1]) for _, x, _, _ in drawn))
-    shown = [y for i, (_, _, y, _) in enumerate(drawn) if not within or within[i]]
-    low, high = min(float(y.min()) for y in shown), max(float(y.max()) for y in shown)
-    margin = 0.05 * (high - low) or 0.1
-    low, high = low - margin, high + margin
+    low, high = ax.get_ylim()
     ax.set_ylim((high, low) if down else (low, high))  # the road as seen from above
     ticks_inside(ax)
     label_curves(ax, [Curve(name, x, y, line.color) for name, x, y, line in drawn])

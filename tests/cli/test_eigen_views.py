@@ -15,7 +15,7 @@ from bikestab.plot import files
 from bikestab.plot.against import draw_against
 from bikestab.plot.loci import draw_loci
 from bikestab.plot.locus import draw_locus
-from bikestab.plot.motion import draw_motion, draw_motions
+from bikestab.plot.motion import draw_motion
 from bikestab.plot.shapes import draw_shapes
 from bikestab.variants import parameter_of
 
@@ -119,12 +119,16 @@ def test_pictures_of_several_machines(bikestab):
     assert ends[1][1] < 0  # capsize, among the real ones
 
 
-def test_a_machine_that_falls_leaves_the_picture_of_the_others():
-    calm, falls = (motion(BIKE, V, {"roll": 0.05}, np.linspace(0, 5, 51)) for V in (5.0, 1.0))
-    roll, *_ = draw_motions([("calm", calm), ("falls", falls)], {"roll": 0.05}).axes
-    assert abs(falls.states[0]).max() > 100
-    assert max(map(abs, roll.get_ylim())) < 0.2
-    assert "beyond some 0.5 rad" in roll.get_title()
+def test_a_machine_that_falls_does_not_flatten_the_others(bikestab, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(files, "save", lambda figure, path: drawn.append(figure))
+    args = ("--bicycle", "sharp1971", "--push", "roll=0.05", "--at", "5", "--until", "20", "-o", "a.png")
+    assert bikestab("eigen", *BENCHMARK, *args)[0] == 0
+    roll, steer, _ = drawn[0].axes
+    assert max(abs(end) for ax in (roll, steer) for end in ax.get_ylim()) < 1.2 * math.pi / 2
+    ends = sorted(line.get_xdata()[-1] for line in roll.lines if len(line.get_xdata()) > 2)
+    assert ends[0] < 20 == ends[1]
+    assert "a curve ends at a quarter turn" in " ".join(roll.get_title().split())
 
 
 def test_ranges_of_a_parameter(bikestab):
