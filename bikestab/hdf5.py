@@ -5,6 +5,7 @@ Raises InputError with the name of the object, for whatever it is.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import ceil, prod
@@ -16,6 +17,9 @@ import numpy as np
 
 from bikestab.errors import InputError
 
+_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+_CUT = re.compile(r"truncated file: eof = (\d+),.* stored_eof = (\d+)")  # the words of HDF5
+_WRITES = "'bikestab scan CONFIG' writes a volume: volume.h5 in its output folder"
 MOST_OBJECTS = 10_000
 _PACKED = 1100  # gzip makes nothing smaller than 1032 times
 _FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE}
@@ -24,14 +28,22 @@ _FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE}
 def open_file(path: Path) -> h5py.File:
     """Open a file for reading. Raises InputError where it is no HDF5 file, or cannot be read now."""
     try:
-        path.open("rb").close()
+        with path.open("rb") as file:
+            head = file.read(len(_SIGNATURE))
         return h5py.File(path, "r")
     except PermissionError as error:
         raise InputError(f"cannot be read ({error.strerror})") from None
     except OSError as error:
         if "unable to lock" in str(error):
-            raise InputError("is being written to by another program") from None
-        raise InputError("is not an HDF5 file, or a damaged one") from None
+            raise InputError("is being written to by another program", hint="try again later") from None
+        if not head:
+            raise InputError("is empty", hint=_WRITES) from None
+        if head != _SIGNATURE:
+            raise InputError("is not an HDF5 file", hint=_WRITES) from None
+        if cut := _CUT.search(str(error)):
+            problem = f"is cut off: {cut[1]} of its {cut[2]} bytes are there"
+            raise InputError(problem, hint="copy it again, or 'bikestab scan CONFIG --force'") from None
+        raise InputError("is a damaged HDF5 file") from None
 
 
 @contextmanager

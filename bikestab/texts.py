@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 import select
@@ -28,7 +29,8 @@ def read_text(path: str | Path, most: int = MOST_BYTES) -> str:
     except FileNotFoundError:
         raise InputError("there is no such file", place=file, hint=_neighbours(Path(path))) from None
     except IsADirectoryError:
-        raise InputError("is a folder, not a file", place=file) from None
+        hint = _neighbours(Path(path, "file"))
+        raise InputError("is a folder, not a file", place=file, hint=hint) from None
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})", place=file) from None
     except ValueError:
@@ -39,8 +41,18 @@ def read_text(path: str | Path, most: int = MOST_BYTES) -> str:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
-        raise InputError("is not a text file in UTF-8", place=f"{file}, line {line}") from None
+        place = f"{file}, line {line}"
+        raise InputError("is not a text file in UTF-8", place=place, hint=_encoding(content)) from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _encoding(content: bytes) -> str:
+    """What to do about bytes that are no UTF-8."""
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "it is in UTF-16: save it as UTF-8, as 'iconv -f utf-16 -t utf-8' does"
+    if any(byte < 32 and byte not in b"\t\n\f\r" for byte in content[:4096]):
+        return "it is no text at all"
+    return "save it as UTF-8, as 'iconv -f latin1 -t utf-8' does of what Western Windows writes"
 
 
 def is_file(path: str | Path) -> bool:

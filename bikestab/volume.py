@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from copy import copy
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, Self
 
@@ -26,6 +28,10 @@ from bikestab.watched import watched
 
 if TYPE_CHECKING:
     import xarray
+
+
+_AGAIN = "'bikestab scan CONFIG --force' computes a volume anew"
+_MOST_TOLD = 6  # volumes beside one that is not there
 
 
 class Subject(Protocol):
@@ -60,7 +66,7 @@ class Volume:
                 watched(partial(check_volume, self.path))
                 self.file = open_file(self.path)
         except InputError as error:
-            raise error.at(str(path)) from None
+            raise _advised(error).at(str(path)) from None
         self.axes = grid_axes(self.file)
         self.swept: dict[str, Floats] = {name: self.file[name][()] for name in sweep_names(self.file)}
         self._chosen: dict[str, int] = {}
@@ -93,13 +99,13 @@ class Volume:
             )  # as other programs want them
         except OSError:
             problem = f"is damaged: {name} cannot be read"
-            raise InputError(problem, place=str(self.path), hint="scan again with --force") from None
+            raise InputError(problem, place=str(self.path), hint=_AGAIN) from None
         try:
             check_values(name, values)
             if name in ("V1", "V2"):
                 check_ends(name, values, self.read("upper", whole))
         except InputError as error:
-            raise error.at(str(self.path)) from None
+            raise _advised(error).at(str(self.path)) from None
         return values
 
     def axis(self, name: Axis) -> Floats:
@@ -188,7 +194,25 @@ def _found(path: Path) -> Path:
     if (folder / "volume.h5.tiles").exists():
         hint = "'bikestab scan CONFIG' goes on where it was stopped"
         raise InputError("holds a scan that is not finished", place=str(path), hint=hint)
-    raise InputError("there is no such volume", place=str(path), hint="'bikestab scan CONFIG' writes one")
+    raise InputError("there is no such volume", place=str(path), hint=_elsewhere(path))
+
+
+def _elsewhere(path: Path) -> str:
+    """Which volumes are in the folder, or beside what is not there; how to make one where none is."""
+    near = path.with_name(f"{path.name}.h5") if path.name else path
+    folder = path if path.is_dir() else path.parent
+    names: list[str] = []
+    with suppress(OSError, ValueError):
+        there = (p for p in folder.glob("*/volume.h5") if p.is_file())
+        names = [str(near)] if near.is_file() else sorted(str(p.parent) for p in islice(there, _MOST_TOLD))
+    if not names:
+        return "'bikestab scan CONFIG' writes one"
+    return f"did you mean {names[0]!r}?" if len(names) == 1 else f"volumes there: {', '.join(names)}"
+
+
+def _advised(error: InputError) -> InputError:
+    """With what to do about it, whatever is wrong with a volume."""
+    return InputError(error.problem, key=error.key, hint=error.hint or _AGAIN, place=error.place)
 
 
 def parameters_text(family: Family) -> str:

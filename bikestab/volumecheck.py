@@ -49,9 +49,10 @@ def check_volume(path: Path) -> None:
     with open_file(path) as file:
         with reading():
             if "config_sha256" not in file.attrs or "V" not in file:
-                raise InputError("is an HDF5 file, but no volume of bikestab")
+                hint = "a volume is volume.h5 in the folder that a scan names as its output"
+                raise InputError("is an HDF5 file, but no volume of bikestab", hint=hint)
             if "complete" not in file.attrs or not number_of(file, "complete", 0, 1):
-                raise InputError("is incomplete", hint="'bikestab scan --force' writes it again")
+                raise InputError("is incomplete", hint="'bikestab scan CONFIG --force' writes it again")
         check_links(file)
         texts = {name: text_of(file, name) for name in TEXTS}
         if texts["model"] not in ("refined", "unrefined"):

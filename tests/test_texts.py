@@ -81,8 +81,12 @@ def test_a_pipe_into_which_nobody_writes():
 
 def test_what_is_no_text():
     Path("a").write_bytes(b"a: 1\nb: \xff\n")
-    assert told("a") == "a, line 2: is not a text file in UTF-8"
-    assert told(".") == ".: is a folder, not a file"
+    problem = "a, line 2: is not a text file in UTF-8"
+    assert told("a").startswith(f"{problem}\nsave it as UTF-8, as 'iconv -f latin1 -t utf-8'")
+    Path("a").write_bytes(b"a: 1\nb: \xff\0")
+    assert told("a") == f"{problem}\nit is no text at all"
+    Path("b.yaml").touch()
+    assert told(".") == ".: is a folder, not a file\nYAML files in '.': b.yaml"
 
 
 def test_what_is_not_there(monkeypatch):

@@ -221,10 +221,10 @@ def foreign(path):
     [
         (set_incomplete, "is incomplete"),
         (drop_complete, "is incomplete"),
-        (truncate, "is not an HDF5 file, or a damaged one"),
+        (truncate, r"is cut off: \d+ of its \d+ bytes are there"),
         (foreign, "is an HDF5 file, but no volume of bikestab"),
         (lambda path: path.write_text("lam, sigma, V\n"), "is not an HDF5 file"),
-        (lambda path: path.write_bytes(b""), "is not an HDF5 file"),
+        (lambda path: path.write_bytes(b""), "is empty"),
         (lambda path: path.unlink(), "there is no such volume"),
     ],
     ids=["incomplete", "no complete", "cut off", "foreign", "text", "empty", "none"],

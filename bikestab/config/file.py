@@ -16,7 +16,7 @@ from bikestab.config.expectations import Outcome, outcomes
 from bikestab.config.mistakes import UNKNOWN, apart, translated
 from bikestab.config.scanconfig import CheckConfig, ScanConfig
 from bikestab.config.values import Strict
-from bikestab.errors import InputError, Mistakes, dotted, together
+from bikestab.errors import InputError, Mistakes, dotted, nearest, together
 from bikestab.formats.kinds import expected
 from bikestab.presets import preset_names
 from bikestab.rider import flattened
@@ -62,9 +62,15 @@ def checked(path: str | Path) -> tuple[ScanConfig | CheckConfig, list[Outcome], 
 
 
 def _for_check(document: yamltext.Document) -> ScanConfig | CheckConfig:
-    if document.data.keys() <= CheckConfig.model_fields.keys():
-        return _parsed(document, {}, CheckConfig)
-    return parse_config(document)
+    return parse_config(document) if _of_scan(document.data) else _parsed(document, {}, CheckConfig)
+
+
+def _of_scan(data: dict[str, Any]) -> bool:
+    """Whether it has keys that only a scan's config has, as they are or misspelt."""
+    known = ScanConfig.model_fields
+    more = known.keys() - CheckConfig.model_fields.keys()
+    meant = {nearest(str(key), known) for key in data if key not in known}
+    return bool(more & data.keys()) or any(f"did you mean {key!r}?" in meant for key in more)
 
 
 def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> ScanConfig:

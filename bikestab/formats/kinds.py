@@ -78,6 +78,10 @@ def expected(kind: str, path: str | Path) -> Iterator[None]:
         yield
     except InputError as error:
         found = kind_of(path)
+        if not found and Path(path).suffix in (".h5", ".hdf5") and is_file(path) and kind != "volume":
+            problem = f"is named as a volume, and is neither one nor {KINDS[kind][0]}"
+            hint = "'bikestab scan CONFIG' writes volumes"
+            raise InputError(problem, place=str(path), hint=hint) from error
         if not found or found == kind or (kind, found) in _TOLD_BY_READER:
             raise
         what, takes = KINDS[found]

@@ -166,7 +166,7 @@ def test_info_config_scans_again(bikestab, volume):
 @pytest.mark.parametrize("command", [["info"], ["slice", "--lam", "0.1"]])
 @pytest.mark.parametrize(
     ("content", "expected"),
-    [(None, "there is no such volume"), (b"text", "is not an HDF5 file, or a damaged one")],
+    [(None, "there is no such volume"), (b"text", "is not an HDF5 file")],
 )
 def test_no_volume(bikestab, command, content, expected):
     if content is not None:

@@ -220,7 +220,7 @@ def test_incomplete_volume(bikestab, volumes, tmp_path):
     shutil.copy(volumes["1981"] / "volume.h5", tmp_path / "volume.h5")
     with h5py.File(tmp_path / "volume.h5", "r+") as file:
         file.attrs["complete"] = 0
-    mistake(bikestab("export", ".", "--intervals", "i.csv"), "is incomplete", "scan --force")
+    mistake(bikestab("export", ".", "--intervals", "i.csv"), "is incomplete", "scan CONFIG --force")
 
 
 def test_damaged_volume(bikestab, volumes, tmp_path):
