@@ -19,7 +19,6 @@ from bikestab.units import BUILDERS, as_built
 _COLORS = ("#004488", "#DDAA33")  # Tol 2021, high contrast
 _LEAST, _SEEN = 0.005, 0.006  # %/%, and share of the largest: smaller bars are none to see
 _PANEL, _BAR, _ROW = 4.5, 0.24, 0.17  # inches: a panel's width, the height of a bar, and of a title's row
-_COLUMNS = 2  # of panels: beside more of them words could not be read in print
 _FRONT = "measures of the front:"
 _WHITE = {"facecolor": "white", "edgecolor": "none", "pad": 1}
 _TITLE: dict[str, Any] = {"x": 1.0, "ha": "right", "multialignment": "center"}  # over the names too
@@ -48,53 +47,35 @@ class Panel(NamedTuple):
     none: str
 
 
-def draw_tornado(machines: Sequence[tuple[Sequence[str], Sequence[Row]]]) -> Figure:
-    """One panel for each machine: the title's lines, and the rows of one of its stable intervals.
-
-    Bars are per cent of the speed for one per cent of the parameter.
-    """
-    panels = []
-    for title, rows in machines:
-        bars = [
-            Bar(
-                row["name"], row["value"], row["unit"],
-                (row["elasticity_V1"] or 0.0, row["elasticity_V2"] or 0.0),
-                (row["dV1"] or 0.0, row["dV2"] or 0.0), not row["notation"],
-            )
-            for row in rows
-        ]  # fmt: skip
-        panels.append(
-            Panel(title, [bar for bar in bars if bar.value == 0 or _size(bar) > _LEAST], "no stable speed")
+def draw_tornado(title: Sequence[str], rows: Sequence[Row]) -> Figure:
+    """The title's lines, and the rows of a stable interval: per cent of a speed for one of the parameter."""
+    bars = [
+        Bar(
+            row["name"], row["value"], row["unit"],
+            (row["elasticity_V1"] or 0.0, row["elasticity_V2"] or 0.0),
+            (row["dV1"] or 0.0, row["dV2"] or 0.0), not row["notation"],
         )
-    return draw_bars(panels, "% of the speed for 1 % more\nwider interval: V₁ ←, V₂ →", ("V₁", "V₂"), "m/s")
+        for row in rows
+    ]  # fmt: skip
+    panel = Panel(title, [bar for bar in bars if bar.value == 0 or _size(bar) > _LEAST], "no stable speed")
+    return draw_bars(panel, "% of the speed for 1 % more\nwider interval: V₁ ←, V₂ →", ("V₁", "V₂"), "m/s")
 
 
 @own_settings()
-def draw_bars(panels: Sequence[Panel], words: str, results: Sequence[str] = ("",), unit: str = "") -> Figure:
-    """One panel for each machine; ``words`` say what the bars measure, ``results`` what each colour is of.
-
-    ``unit`` is that of the results.
+def draw_bars(panel: Panel, words: str, results: Sequence[str] = ("",), unit: str = "") -> Figure:
+    """One machine; ``words`` say what the bars measure, ``results`` of what each colour is, in this ``unit``.
 
     Left out are parameters whose bars cannot be seen, and measures of the front that say what another does.
     """
-    panels = [panel._replace(bars=_shown(panel.bars)) for panel in panels]
-    columns = min(len(panels), _COLUMNS)
-    rows = -(-len(panels) // _COLUMNS)
-    figure = Figure(figsize=(_PANEL * columns, 1.0), layout="constrained")
-    grid = figure.add_gridspec(rows or 1, columns or 1)
-    heights = [0.0] * rows
-    for i, panel in enumerate(panels):
-        ax = figure.add_subplot(grid[i // columns, i % columns])
-        bars = _draw(ax, panel, results, unit)
-        ax.set_xlabel(words)
-        first, *others = panel.title
-        first = first if panel.bars else f"{first}: {panel.none}"
-        set_title(ax, first, *others, panels=columns, **_TITLE)
-        height = 1.5 + _BAR * max(bars, 4) + _ROW * ax.get_title().count("\n")
-        heights[i // columns] = max(heights[i // columns], height)
-    figure.set_figheight(sum(heights))
-    grid.set_height_ratios(heights)
-    seen = [any(bar.effects[i] for panel in panels for bar in panel.bars) for i in range(len(results))]
+    panel = panel._replace(bars=_shown(panel.bars))
+    figure = Figure(figsize=(_PANEL, 1.0), layout="constrained")
+    ax = figure.add_subplot()
+    bars = _draw(ax, panel, results, unit)
+    ax.set_xlabel(words)
+    first, *others = panel.title
+    set_title(ax, first if panel.bars else f"{first}: {panel.none}", *others, **_TITLE)
+    figure.set_figheight(1.5 + _BAR * max(bars, 4) + _ROW * ax.get_title().count("\n"))
+    seen = [any(bar.effects[i] for bar in panel.bars) for i in range(len(results))]
     handles = [Patch(color=c, label=r) for r, c, some in zip(results, _COLORS, seen, strict=False) if some]
     legend_below(figure, handles if len(results) > 1 else [])
     return figure

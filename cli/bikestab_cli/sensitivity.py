@@ -104,23 +104,20 @@ def command(
 
 
 def _told(found: Sequence[Found], what: str, left_out: Sequence[str]) -> str:
+    from bikestab_cli.sensitivity_compared import side_by_side
     from bikestab_cli.sensitivity_more import MOVED, told_of
-    from bikestab_cli.sensitivity_words import opening, side_by_side, told
+    from bikestab_cli.sensitivity_words import opening, told
     from bikestab_cli.spread_words import told_spread
 
-    if what != "speeds":
-        texts = [
-            told_of(opening(each.of, each.machine.changes), each.of, MOVED[what](each.of, each.first))
-            for each in found
-        ]
-        parts = ["\n\n".join(texts)]
-    elif len(found) == 1 and not left_out:
-        (one,) = found
-        parts = [told(one.of, one.first, one.record, one.machine.changes)]
+    (one, *others) = found
+    if others or left_out:
+        first = side_by_side(found, what)
+    elif what == "speeds":
+        first = told(one.of, one.first, one.record, one.machine.changes)
     else:
-        parts = [side_by_side(found)]
-    parts += [f"{each.machine.words}, {told_spread(each.spread)}" for each in found if each.spread]
-    return "\n\n".join([parts[0], *map(prose, [*parts[1:], *left_out])])
+        first = told_of(opening(one.of, one.machine.changes), one.of, MOVED[what](one.of, one.first))
+    spreads = [f"{each.machine.words}, {told_spread(each.spread)}" for each in found if each.spread]
+    return "\n\n".join([first, *map(prose, [*spreads, *left_out])])
 
 
 def _save(found: Sequence[Found], name: str) -> None:

@@ -58,7 +58,7 @@ MOVED: dict[str, Callable[[Sensitivity, FirstSigma], Moved]] = {
 
 def line(found: Sensitivity, moved: Moved) -> str:
     """What it is, and which parameters of the notation move it most."""
-    effects = {name: effect for name, effect in _effects(found, moved).items() if _of_notation(found, name)}
+    effects = {name: effect for name, effect in effects_of(found, moved).items() if _of_notation(found, name)}
     names = [name for name in _sorted(effects) if effects[name]][:_NAMES]
     shown = ", ".join(f"{name} {effects[name]:+.2g}" for name in names)
     return f"{moved.words}; it changes with 1 % more of\n{shown}{moved.unit}" if names else moved.words
@@ -68,7 +68,7 @@ def tables(found: Sensitivity, moved: Moved) -> list[str]:
     """What it is, and its derivatives: by the parameters of the notation, and by measures of the front."""
     if not moved.slope:
         return [moved.words]
-    effects = _effects(found, moved)
+    effects = effects_of(found, moved)
     parts = [moved.words]
     for first, of in (("parameter", True), ("front", False)):
         names = [name for name in _sorted(effects) if _of_notation(found, name) == of]
@@ -94,7 +94,7 @@ def _rows(found: Sensitivity, moved: Moved, names: Sequence[str]) -> list[list[s
     return rows
 
 
-def _effects(found: Sensitivity, moved: Moved) -> dict[str, float]:
+def effects_of(found: Sensitivity, moved: Moved) -> dict[str, float]:
     """The change with one per cent more of each parameter."""
     return {name: 0.01 * slope * abs(found.values[name]) for name, slope in moved.slope.items()}
 
@@ -117,7 +117,7 @@ def panel(found: Sensitivity, moved: Moved, name: str) -> Panel:
     """What a picture shows of one machine: its design and value, and the effects of 1 % more."""
     from bikestab.plot.tornado import Bar, Panel
 
-    effects = _effects(found, moved)
+    effects = effects_of(found, moved)
     shown = [
         Bar(name, found.values[name], found.units[name], (effects[name],), (moved.slope[name],), front)
         for front in (False, True)

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bikestab_cli.sensitivity_more import MOVED, panel, title
-from bikestab_cli.sensitivity_words import ends_of
+from bikestab_cli.sensitivity_words import ends_of, widest_of
+from bikestab_cli.several import told_apart
 
 if TYPE_CHECKING:
     from bikestab_cli.sensitivity_found import Found
@@ -20,30 +21,48 @@ def draw(found: Sequence[Found], what: str, output: str) -> None:
     """The effects on the speeds, the lowest growth rate, or the smallest stable σ."""
     from bikestab.plot.files import save
 
-    save(_speeds(found) if what == "speeds" else _moved(found, what), Path(output))
+    if len(found) > 1:
+        figure = _side_by_side(found, what)
+    else:
+        figure = _speeds(found[0]) if what == "speeds" else _moved(found[0], what)
+    save(figure, Path(output))
 
 
-def _speeds(found: Sequence[Found]) -> Any:
-    """The effects on the ends of each machine's widest stable interval."""
-    from bikestab.design.effects import width
+def _side_by_side(found: Sequence[Found], what: str) -> Any:
+    """A mark of each machine for each parameter."""
+    from bikestab_cli.sensitivity_compared import by_size, compared
+
+    from bikestab.plot.effects import Machine, draw_effects
+
+    common, names = told_apart([each.machine for each in found])
+    machines = [Machine(name, compared(each, what).effects) for name, each in zip(names, found, strict=True)]
+    of, what_moves = MOVED[what](found[0].of, found[0].first) if what != "speeds" else None, "stable speeds"
+    if of is None:
+        results = ["V₁ [%]\nwider interval: ←", "V₂ [%]\nwider interval: →"]
+    else:
+        results = [f"change{of.unit and f' [{of.unit.strip()}]'}\n← better: {of.lower}"]
+        what_moves = of.what
+    title = f"{what_moves}: change with 1 % more of a parameter"
+    title = f"{common}: {title}" if common else f"{title[0].upper()}{title[1:]}"
+    return draw_effects(machines, by_size([machine.effects for machine in machines]), title, results)
+
+
+def _speeds(found: Found) -> Any:
+    """The effects on the ends of a machine's widest stable interval."""
     from bikestab.plot.tornado import draw_tornado
 
-    machines = []
-    for each in found:
-        widest: Any = max(each.record["intervals"], key=width, default={"parameters": []})
-        lines = title(each.of, each.machine.words)
-        if widest["parameters"]:
-            lines.append(f"stable from {ends_of(widest)}")
-        machines.append((lines, widest["parameters"]))
-    return draw_tornado(machines)
+    widest: Any = widest_of(found.record["intervals"])
+    lines = title(found.of, found.machine.words)
+    if not widest:
+        return draw_tornado(lines, [])
+    return draw_tornado([*lines, f"stable from {ends_of(widest)}"], widest["parameters"])
 
 
-def _moved(found: Sequence[Found], what: str) -> Any:
+def _moved(found: Found, what: str) -> Any:
     from bikestab.plot.tornado import draw_bars
 
-    moved = [MOVED[what](each.of, each.first) for each in found]
-    panels = [panel(each.of, of, each.machine.words) for each, of in zip(found, moved, strict=True)]
-    of, unit = moved[0], moved[0].unit.strip()
+    of = MOVED[what](found.of, found.first)
+    unit = of.unit.strip()
     words = f"change of the {of.what} with 1 % more{f' [{unit}]' if unit else ''}"
     words = "\n".join([*textwrap.wrap(words, _LETTERS), f"← better: {of.lower}"])
-    return draw_bars(panels, words, unit=unit)
+    return draw_bars(panel(found.of, of, found.machine.words), words, unit=unit)

@@ -7,23 +7,20 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from bikestab_cli.output import design_columns, heading, letter_of, prose, table
+from bikestab_cli.output import design_columns, heading, prose, table
 from bikestab_cli.sensitivity_more import growth_moved, line, sigma_moved
 
 from bikestab.units import BUILDERS
 
 if TYPE_CHECKING:
-    from bikestab_cli.sensitivity_found import Found
-
     from bikestab.design.effects import Row, Tried
     from bikestab.design.sensitivity import Sensitivity
     from bikestab.records import Interval
     from bikestab.region.first_sigma import FirstSigma
 
-_FEW = 4  # machines that fit side by side
 _LEAST = 4  # listed as those that lower V1 most easily
 _NAMES = 6  # listed as those that widen the interval most
-_HELD = {
+HELD = {
     "trail": "trail held: it stays where tilt, wheelbase and front wheel vary",
     "offset": "offset held: the fork stays; the trail follows tilt and front wheel",
     "sigma": "σ held: the trail grows with the wheelbase",
@@ -50,7 +47,7 @@ def told(found: Sensitivity, first: FirstSigma, record: Mapping[str, Any], chang
 def opening(found: Sensitivity, changes: str) -> str:
     """Which machine and design it is, and what is held."""
     changed = f" ({changes})" if changes else ""
-    return f"{heading(found.bicycle, found.model)}{changed}\n{_design(found)}\n{_HELD[found.hold]}"
+    return f"{heading(found.bicycle, found.model)}{changed}\n{_design(found)}\n{HELD[found.hold]}"
 
 
 def _design(found: Sensitivity) -> str:
@@ -91,8 +88,8 @@ def _table(rows: Sequence[Row], first: str, doubts: Mapping[str, str]) -> str:
     cells = [
         [
             row["name"], f"{row['value'] * size:.5g}", unit,
-            _number(row["dV1"], 1 / size), _share(row["elasticity_V1"]),
-            _number(row["dV2"], 1 / size), _share(row["elasticity_V2"]),
+            _number(row["dV1"], 1 / size), share(row["elasticity_V1"]),
+            _number(row["dV2"], 1 / size), share(row["elasticity_V2"]),
             _number(row["change"], size, "+.3g") + ("*" if row["name"] in doubts else " " if doubts else ""),
         ]
         for row in rows
@@ -105,7 +102,7 @@ def _number(value: float | None, size: float, style: str = ".4g") -> str:
     return "-" if value is None else f"{value * size:{style}}"
 
 
-def _share(value: float | None) -> str:
+def share(value: float | None) -> str:
     return "-" if value is None else f"{value:z.3f}"
 
 
@@ -153,12 +150,12 @@ def _gain(row: Row) -> float | None:
 
 
 def _tried(results: Sequence[Tried], own: Sequence[Interval]) -> str:
-    rows = [["as it is", *_interval(_widest(own))]]
+    rows = [["as it is", *_interval(widest_of(own))]]
     rows += [[each["what"], *_interval(each["interval"])] for each in results]
     return table(["", "V1 [m/s]", "V2 [m/s]", "width [m/s]"], rows)
 
 
-def _widest(own: Sequence[Interval]) -> Interval | None:
+def widest_of(own: Sequence[Interval]) -> Interval | None:
     return max(own, key=lambda i: math.inf if i["V2"] is None else i["V2"] - i["V1"], default=None)
 
 
@@ -168,47 +165,3 @@ def _interval(interval: Interval | None) -> list[str]:
     if interval["V2"] is None:
         return [f"{interval['V1']:.3f}", "unbounded", ""]
     return [f"{interval['V1']:.3f}", f"{interval['V2']:.3f}", f"{interval['V2'] - interval['V1']:.3f}"]
-
-
-def side_by_side(found: Sequence[Found]) -> str:
-    """The elasticities of several machines' widest intervals, what matters most to any of them first."""
-    parts = []
-    records = [each.record for each in found]
-    for start in range(0, len(found), _FEW):
-        heads = []
-        for i, each in enumerate(found[start : start + _FEW], start):
-            head = f"{letter_of(i)}: {heading(each.of.bicycle, each.of.model)}, {each.of.hold} held"
-            head += f", {each.machine.changes}" if each.machine.set else ""
-            heads.append(prose(f"{head}\n   {_summary(each.record)}"))
-        parts += ["\n".join(heads), _elasticities(records[start : start + _FEW], start)]
-    parts.append("%/%: per cent of the speed for one per cent of the parameter")
-    return "\n\n".join(parts)
-
-
-def _summary(record: Mapping[str, Any]) -> str:
-    widest = _widest(record["intervals"])
-    return "no stable speed" if widest is None else f"stable from {ends_of(widest)}"
-
-
-def _elasticities(records: Sequence[Mapping[str, Any]], start: int) -> str:
-    columns: list[dict[str, Row]] = []
-    for record in records:
-        widest: Any = _widest(record["intervals"])
-        columns.append({row["name"]: row for row in widest["parameters"]} if widest else {})
-    names = list(dict.fromkeys(name for column in columns for name in column))
-
-    def size(name: str) -> float:
-        rows = [column[name] for column in columns if name in column]
-        return max(abs(row[key] or 0.0) for row in rows for key in ("elasticity_V1", "elasticity_V2"))
-
-    head = ["%/%"]
-    for i in range(len(records)):
-        head += [f"{letter_of(start + i)}: V1", "V2"]
-    rows = []
-    for name in sorted(names, key=size, reverse=True):
-        cells = [name]
-        for column in columns:
-            row = column.get(name)
-            cells += [_share(row["elasticity_V1"]), _share(row["elasticity_V2"])] if row else ["", ""]
-        rows.append(cells)
-    return table(head, rows)

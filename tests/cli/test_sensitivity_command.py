@@ -76,9 +76,44 @@ def test_machines_of_two_notations_side_by_side(told):
     assert "B: sharp1971" in out
     assert "l1" in out.split()
     assert "mB" not in out.split()
-    many = told("--bicycle", "meijaard2007", "--set", "mB=60,65,70,75,80,85")[1]
-    assert "mB" in many.split()
-    assert "F: meijaard2007" in many
+
+
+def test_many_machines_are_rows_of_one_table(told):
+    """With the parameters that matter most to any of them, as many as fit."""
+    args = ("--bicycle", "meijaard2007", "--set", "mB=60,65,70,75,80,85")
+    code, out, err = told(*args)
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    assert "F: meijaard2007 mB=85: stable from 4.292383 m/s" in out
+    assert out.count("%/%  head_angle") == 1
+    head, *table = (line.split() for line in out.split("\n\n")[2].splitlines())
+    found = json.loads(told(*args, "--json")[1])["results"]
+    for i, each in enumerate(found):
+        rows = {row["name"]: row for row in each["intervals"][0]["parameters"]}
+        for k, end in enumerate(("V1", "V2")):
+            values = table[2 * i + k][-len(head) + 1 :]
+            assert values == [f"{rows[name][f'elasticity_{end}']:.3f}" for name in head[1:]]
+        largest = max(
+            abs(rows[n][f"elasticity_{end}"]) for n in rows.keys() - {*head} for end in ("V1", "V2")
+        )
+        assert largest <= max(abs(rows[head[-1]][f"elasticity_{end}"]) for end in ("V1", "V2")) + 0.2
+    assert f"{len(rows) - len(head) + 1} more parameters have less effect" in out
+
+
+@pytest.mark.parametrize("what", ["growth", "sigma_min"])
+def test_what_else_moves_is_side_by_side_too(told, what):
+    args = ("--of", what, "--bicycle", "meijaard2007", "--bicycle", "sharp1971", "-o", "a.png")
+    code, out, err = told(*args)
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    assert out.count("1 % more ") == 1
+    rows = dict(line.split(maxsplit=1) for line in out.split("\n\n")[2].splitlines()[1:])
+    found = json.loads(told(*args[2:], "--json")[1])["results"]
+    for i, each in enumerate(found):
+        slope = (each["best"] if what == "growth" else each["sigma_min"])["slope"]
+        (value,) = (row["value"] for row in each["intervals"][0]["parameters"] if row["name"] == "m1")
+        assert float(rows["m1"].split()[i]) == pytest.approx(0.01 * slope["m1"] * value, rel=5e-3)
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_no_stable_speed(told):

@@ -55,6 +55,8 @@ COMMANDS = [
     "sensitivity --bicycle meijaard2007 --of growth",
     "sensitivity --lam 0.1 --sigma 0.08 --of sigma_min",
     "sensitivity --bicycle kooijman2011 --bicycle meijaard2007 --bicycle sharp1971",
+    f"sensitivity {ALL} --of growth",
+    "sensitivity --bicycle meijaard2007 --set mB=60,65,70,75,80,85,90,95 --of sigma_min",
     "compare meijaard2007 kooijman2011",
     "compare dikarev1981 meijaard2007",
     "compare meijaard2007 meijaard2007",
