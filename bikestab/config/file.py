@@ -75,11 +75,22 @@ def _of_scan(data: dict[str, Any]) -> bool:
 
 def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> ScanConfig:
     """The configuration in a parsed YAML document; see ``load_config``."""
-    places = {}
+    places: dict[_Key, str] = {}
+    _check_once(overrides)
     for override in overrides:
         key, document = _override(document, override)
         places[key] = f"--set {override}"
     return _parsed(document, places, ScanConfig).with_text(document.text)
+
+
+def _check_once(overrides: Sequence[str]) -> None:
+    """Refuse one that takes the place of what another one before it put in."""
+    paths = [[part.strip() for part in override.partition("=")[0].split(".")] for override in overrides]
+    for i, path in enumerate(paths):
+        for before in paths[:i]:
+            if before[: len(path)] == path:
+                problem = f"{'.'.join(before)} is set already"
+                raise InputError(problem, place=f"--set {overrides[i]}", hint="give one of them")
 
 
 def _read(path: str | Path) -> yamltext.Document:

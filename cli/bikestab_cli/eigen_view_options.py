@@ -30,10 +30,10 @@ class View(NamedTuple):
         return "shapes" if self.shapes else "push" if self.push else "over" if self.over else ""
 
 
-def _pushed(_: click.Context, option: click.Parameter, text: str | None) -> dict[str, float]:
+def _pushed(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> dict[str, float]:
     units = {"roll": ANGLE, "steer": ANGLE, "roll_rate": RATE, "steer_rate": RATE}
     values: dict[str, float] = {}
-    for part in text.split(",") if text else ():
+    for part in (part for text in texts for part in text.split(",")):
         name, equals, number = part.partition("=")
         name = name.strip()
         if not equals or name not in units:
@@ -67,7 +67,7 @@ def view_options(function: Callable[..., Any]) -> Callable[..., Any]:
     options = (
         click.option("--shapes", is_flag=True, help="Show how roll and steer take part in each mode."),
         click.option(
-            "--push", metavar="STATE=VALUE,...", callback=_pushed,
+            "--push", metavar="STATE=VALUE,...", multiple=True, callback=_pushed,
             help="Show the motion after a push: 'roll_rate=0.5', of roll, steer, roll_rate, steer_rate.",
         ),
         over_option,

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import click
 from bikestab_cli.messages import cut
+from bikestab_cli.once import check_once
 from bikestab_cli.streams import tell_error, visible_streams
 
 from bikestab import __version__
@@ -48,7 +49,10 @@ class _Lazy(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
             raise click.UsageError(f"there is no command {args[0]!r}; {nearest(args[0], COMMANDS)}", ctx)
-        return super().resolve_command(ctx, args)
+        name, command, rest = super().resolve_command(ctx, args)
+        if command and not ctx.resilient_parsing:  # as for a shell that completes words
+            check_once(command, ctx, rest)
+        return name, command, rest
 
 
 @click.group(cls=_Lazy, context_settings={"help_option_names": ["-h", "--help"]})

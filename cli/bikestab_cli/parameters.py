@@ -17,10 +17,13 @@ def values_given(_: click.Context, option: click.Parameter, texts: tuple[str, ..
     values: dict[str, float] = {}
     for text in texts:
         name, equals, number = text.partition("=")
+        name = name.strip()
         if not equals:
             raise click.BadParameter(f"{text!r} is not NAME=VALUE, e.g. delta=1", param=option)
+        if name in values:
+            raise click.BadParameter(f"{name} is given twice", param=option)
         try:
-            values[name.strip()] = parameter(name.strip(), number)
+            values[name] = parameter(name, number)
         except InputError as error:
             if number.count(",") > 1 or ("," in number and error.hint.startswith("allowed")):
                 problem = f"{text!r} has several values, where one is taken"

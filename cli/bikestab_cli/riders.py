@@ -10,7 +10,9 @@ if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
 
 
-def _keep(context: click.Context, _: click.Parameter, file: str | None) -> None:
+def _keep(context: click.Context, option: click.Parameter, file: str | None) -> None:
+    if file is not None and not file.strip():
+        raise click.BadParameter(f"{file!r} is no name", param=option)
     context.meta["bikestab.rider"] = file
 
 

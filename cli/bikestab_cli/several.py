@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 Values = dict[str, list[float]]
 MOST_MACHINES = 1000
+FEWEST_DIGITS = 4  # of a value in a picture; tables have six, and both more where it takes more
 
 
 class Chosen(NamedTuple):
@@ -28,11 +29,13 @@ class Chosen(NamedTuple):
 
     bicycle: Bicycle
     set: dict[str, float]
+    digits: int = FEWEST_DIGITS  # that tell its values from those of the others
 
     @property
     def changes(self) -> str:
         """What is set, in words."""
-        return " ".join(f"{name}={value:g}" for name, value in self.set.items())
+        digits = max(self.digits, 6)
+        return " ".join(f"{name}={value:.{digits}g}" for name, value in self.set.items())
 
     @property
     def words(self) -> str:
@@ -59,7 +62,8 @@ def _with_units(machine: Chosen) -> str:
 
     known = {**machine.bicycle.notation, **FRONT}
     units = {name: parameter_of(machine.bicycle, name).unit for name in machine.set if name in known}
-    parts = (f"{name} = {value:.4g} {units.get(name, '')}" for name, value in machine.set.items())
+    digits = machine.digits
+    parts = (f"{name} = {value:.{digits}g} {units.get(name, '')}" for name, value in machine.set.items())
     return ", ".join(part.removesuffix(" 1").strip() for part in parts)
 
 
@@ -76,7 +80,18 @@ def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -
             values[name] = [parameter(name, number) for number in united(numbers.split(","))]
         except InputError as error:
             raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
+        if twice := [x for x, number in Counter(values[name]).items() if number > 1]:
+            raise click.BadParameter(f"{name}={twice[0]:g} is given twice in {text!r}", param=option)
     return values
+
+
+def _digits(changes: Values) -> int:
+    """How many digits tell all values of each parameter apart."""
+    return next(
+        digits
+        for digits in range(FEWEST_DIGITS, 18)  # 17 tell all doubles apart
+        if all(len({f"{x:.{digits}g}" for x in values}) == len(values) for values in changes.values())
+    )
 
 
 def several_machines(function: F) -> F:
@@ -90,8 +105,9 @@ def several_machines(function: F) -> F:
     changed = click.option(
         "--set", "changes", metavar="NAME=VALUE,...", multiple=True, callback=_values,
         shell_complete=parameters,
-        help="Other values of a parameter in the bicycle's notation, e.g. mB=60,75,100 or rider.m=60,100; c "
-        "is the trail among the 25 parameters, the wheelbase in the paper's notation.",
+        help="Other values of a parameter in the bicycle's notation, e.g. mB=60,75,100 or rider.m=60,100; of "
+        "several --set, every combination; c is the trail among the 25 parameters, the wheelbase in the "
+        "paper's notation.",
     )  # fmt: skip
     return named(changed(equation_options(function)))
 
@@ -122,7 +138,7 @@ def machines_chosen(
                 raise click.BadParameter(problem, param_hint="--set") from None
             if values:
                 warn(bicycle)
-            machines.append(Chosen(bicycle, values))
+            machines.append(Chosen(bicycle, values, _digits(changes)))
     return machines
 
 

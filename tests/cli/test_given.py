@@ -1,0 +1,108 @@
+"""What is given twice, or is empty, is refused and not dropped."""
+
+import importlib
+
+import click
+import pytest
+from bikestab_cli.main import COMMANDS
+from bikestab_cli.once import takes_one
+
+OPTIONS = [
+    (name, command, param)
+    for name in COMMANDS
+    for command in [importlib.import_module(f"bikestab_cli.{name}").command]
+    for param in command.params
+    if isinstance(param, click.Option)
+]
+ONCE = [(name, param) for name, _, param in OPTIONS if takes_one(param)]
+WITH_VALUE = [each for each in OPTIONS if not each[2].is_flag]
+
+
+def test_no_option_is_of_a_kind_that_these_tests_do_not_know():
+    """Each takes one value, is a flag or may stand several times; and those of each kind are there."""
+    assert all(param.nargs == 1 and not param.count for _, _, param in OPTIONS)
+    assert {"--lam", "--V", "--delta", "--model", "-o", "--csv", "--junit", "--within", "--hold"} <= {
+        param.opts[0] for _, param in ONCE
+    }
+    assert len(ONCE) > 70
+
+
+@pytest.mark.parametrize(("name", "param"), ONCE, ids=lambda x: x if isinstance(x, str) else x.opts[0])
+def test_an_option_of_one_value_is_typed_once(bikestab, name, param):
+    """Under any of its names; what else is missing or wrong is told of later."""
+    first, last = param.opts[0], param.opts[-1]
+    code, out, err = bikestab(name, first, "1", last, "2")
+    assert (code, out) == (2, "")
+    assert err.startswith(f"error: {first} is given twice; give it once")
+    assert err.endswith(f"see 'bikestab {name} --help'\n")
+
+
+def test_flags_help_and_options_of_several_values_may_stand_again(bikestab):
+    assert bikestab("vrange", "--lam", "0.2", "--sigma", "0.08", "--json", "--json")[0] == 0
+    assert bikestab("vrange", "--lam", "0.2", "--lam", "0.1", "--help")[0] == 0
+    assert "START:STOP:NUM gives several" in bikestab("vrange", "--lam", "0.2", "--lam", "0.1")[2]
+    assert bikestab("design", "--V", "4", "--V", "5")[2].startswith(
+        "error: --V is given twice; give it once\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("sensitivity --sd mB=1 --sd mB=2", "mB is given twice"),
+        ("vrange --set mB=60 --set mB=70", "mB is set twice"),
+        ("vrange --set mB=60,70,60.0", "mB=60 is given twice in 'mB=60,70,60.0'"),
+        ("vrange --set lam=18deg,20deg,18deg", "is given twice in"),
+        ("vrange --over mB=60:70:2 --over mB=60:80:3", "mB is given twice"),
+        ("eigen --over mB=60:70:2 --over mB=60:80:3 --at 5", "mB is given twice"),
+        ("design --free mB=60:70 --free mB=60:80", "mB is given twice"),
+        ("design --certified --sd mB=1 --sd mB=2", "mB is given twice"),
+        ("slice out --at delta=1 --at delta=2", "delta is given twice"),
+        ("export out --at delta=1 --at delta=1", "delta is given twice"),
+        ("compare a b --at delta=1 --at delta=2", "delta is given twice"),
+        ("eigen --push roll=1deg --push roll=2deg", "roll is given twice"),
+        ("certify --lam 0.2 --sigma 0.08 --V 4.6:5.6 --tolerance m1=1+-1 --tolerance m1=1+-2", "m1 is given"),
+        ("scan a.yaml --set grid.V.num=3 --set grid.V.num=4", "grid.V.num is set already"),
+        ("scan a.yaml --set grid.V.num=3 --set grid={}", "grid.V.num is set already"),
+    ],
+)  # fmt: skip
+def test_a_name_that_is_given_two_values(without_warnings, tmp_path, words, told):
+    """A key of a config below one that is set is another matter: it changes what was set."""
+    (tmp_path / "a.yaml").write_text("bicycle: dikarev1981\n")
+    code, out, err = without_warnings(*words.split())
+    assert (code, out, told in err) == (2, "", True), err
+
+
+def test_pushes_add_up(bikestab):
+    """What is typed apart moves as what is typed together."""
+    common = ("eigen", "--bicycle", "meijaard2007", "--at", "5", "--until", "0.5")
+    code, together, _ = bikestab(*common, "--push", "roll=5deg,steer=1deg")
+    assert (code, bikestab(*common, "--push", "roll=5deg", "--push", "steer=1deg")[1]) == (0, together)
+    assert "roll" in together
+    assert "steer" in together
+
+
+@pytest.mark.parametrize(
+    ("name", "command", "param"), WITH_VALUE, ids=lambda x: x.opts[0] if hasattr(x, "opts") else None
+)
+def test_an_option_without_its_value_is_refused_by_its_name(without_warnings, tmp_path, name, command, param):
+    """As a script gives it whose variable is empty; nothing takes it for an option that is not there."""
+    (tmp_path / "a.yaml").write_text("bicycle: dikarev1981\n")
+    files = [
+        "a.yaml" for each in command.params if isinstance(each, click.Argument) and each.required
+        for _ in range(max(each.nargs, 1))
+    ]  # fmt: skip
+    box = ["--lam", "0.2", "--sigma", "0.1"] if param.opts[0] in ("--rider", "--tolerance") else []
+    box = box if any("--lam" in each.opts for each in command.params) else []
+    box += ["--V", "4:5"] if name == "certify" and box else []
+    code, out, err = without_warnings(name, *files, *box, param.opts[0], "")
+    assert (code, out) == (2, ""), err
+    assert any(option in err for option in param.opts), err
+
+
+def test_values_that_differ_late_have_labels_that_differ(bikestab):
+    _, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=85.0000001,85.0000002")
+    assert "mB=85.0000001" in out
+    assert "mB=85.0000002" in out
+    _, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=187lb,85")
+    assert "mB=84.8218 " in out
