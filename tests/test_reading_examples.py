@@ -9,6 +9,7 @@ import h5py
 import pytest
 
 from bikestab.config.file import load_config
+from bikestab.hdf5 import check_whole
 from bikestab.scan.run import run_scan
 
 ROOT = Path(__file__).parents[1]
@@ -71,14 +72,28 @@ import * as hdf5 from "jsfive";
 const bytes = new Uint8Array(readFileSync("out/quick/volume.h5"));
 const file = new hdf5.File(bytes.buffer, "volume.h5");
 for (const [name, value] of Object.entries(file.attrs)) console.log(name, JSON.stringify(value));
+console.log("marginal", file.get("marginal").value.join(""));
 """
     with h5py.File(folder / "out" / "quick" / "volume.h5") as file:
         assert len(file.attrs) > 8
         names = set(file.attrs)
         title = file.attrs["title"]
     shown = in_node(program, "jsfive", folder)
+    *shown, marginal = shown
+    assert marginal.split() == ["marginal", "0" * 31 * 31]
     assert {line.split()[0] for line in shown} == names
     assert f'title "{title}"' in shown
+
+
+def test_every_chunk_is_stored(folder):
+    """In what bikestab wrote: without one jsfive gives nothing, and pyfive breaks."""
+    with h5py.File(folder / "out" / "quick" / "volume.h5") as file:
+        chunked = []
+        file.visititems(lambda name, data: chunked.append(data) if getattr(data, "chunks", None) else None)
+        assert len(chunked) > 15
+        assert not file["marginal"][()].any()
+        for data in chunked:
+            check_whole(data)
 
 
 def test_attributes_are_stored_in_the_files_first_object(folder):

@@ -24,6 +24,7 @@ from bikestab.export.tables import (
     save_table,
     skeleton_blocks,
 )
+from bikestab.kinds import KINDS, NONE
 from bikestab.region.curves import Curve, trace
 from bikestab.region.mesh import Mesh, region_mesh
 from bikestab.region.points import Point, points_of
@@ -105,6 +106,18 @@ def export_skeleton(volume: Volume, paths: Paths) -> tuple[list[Curve], list[Poi
         rows = skeleton_blocks(curves, family, points)
         save_table(columns(SKELETON, family), rows, Path(path), about(volume))
     return curves, points
+
+
+def alike(volume: Volume) -> str:
+    """What all designs of a volume have, in words; nothing where they have different things."""
+    lower, upper = volume.read("lower"), volume.read("upper")
+    first = zip(lower[0, 0].tolist(), upper[0, 0].tolist(), strict=True)
+    ends = [f"{KINDS[low]} to {KINDS[high]}" for low, high in first if low != NONE]
+    if (lower != lower[0, 0]).any() or (upper != upper[0, 0]).any():
+        return ""
+    return (
+        f"all designs are stable from {' and from '.join(ends)}" if ends else "no design has a stable speed"
+    )
 
 
 def export_mesh(

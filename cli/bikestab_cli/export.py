@@ -11,7 +11,10 @@ from bikestab_cli.output import count, tell_file
 
 if TYPE_CHECKING:
     from bikestab.export.volumes import Counts
+    from bikestab.region.curves import Curve
     from bikestab.region.mesh import Mesh
+    from bikestab.region.points import Point
+    from bikestab.volume import Volume
 
 
 class _Scale(click.ParamType):
@@ -79,8 +82,9 @@ def command(
     """Write what a volume shows for other programs.
 
     VOLUME is a volume.h5 or its folder. The ending of each FILE chooses its format; options may be repeated.
-    Tables of a sweep have all its machines, with the values of its axes in the first columns, or that
-    of --at.
+    Of a sweep --intervals and --quantiles have all machines, with the values of its axes in the first
+    columns, or that of --at; --mesh and --skeleton take one of them.
+
     The mesh is computed anew in the volume's box, whatever its grid: every vertex lies on the surface to
     rounding, and it has no holes. The factors of its axes are told, and stand in the file.
 
@@ -121,12 +125,7 @@ def command(
         if quantiles:
             _echo(quantiles, count(export_quantiles(opened, quantiles), "row"))
         if skeleton:
-            curves, special = export_skeleton(opened, skeleton)
-            points = sum(len(curve.x) for curve in curves)
-            words = f"{count(len(curves), 'curve')} of {count(points, 'point')}"
-            kinds = Counter(point.name for point in special)
-            shown = ", ".join(f"{number} {name}" for name, number in kinds.items())
-            _echo(skeleton, words + (f"; where they meet or end: {shown}" if shown else ""))
+            _echo(skeleton, _skeleton_told(opened, *export_skeleton(opened, skeleton)))
         if meshes:
             mesh, factors = export_mesh(opened, meshes, cells=cells, scale=scale)
             if len(mesh.triangles):
@@ -143,6 +142,20 @@ def _echo(names: tuple[str, ...], words: str) -> None:
 def _intervals_told(found: Counts) -> str:
     without = f"{found.without} of {found.designs} designs have no stable speed and no row"
     return f"{count(found.intervals, 'interval')}; {without}"
+
+
+def _skeleton_told(volume: Volume, curves: list[Curve], special: list[Point]) -> str:
+    if not curves:
+        from bikestab.export.volumes import alike
+
+        ends = (volume.axis(name)[[0, -1]] for name in volume.axes[:2])
+        box = " and ".join(f"{name} {a:g} ... {b:g}" for name, (a, b) in zip(volume.axes, ends, strict=False))
+        why = alike(volume) or "no stable interval begins or changes"
+        return f"0 curves: {why} in {box}; a larger box may have some"
+    words = f"{count(len(curves), 'curve')} of {count(sum(len(curve.x) for curve in curves), 'point')}"
+    kinds = Counter(point.name for point in special)
+    shown = ", ".join(f"{number} {name}" for name, number in kinds.items())
+    return words + (f"; where they meet or end: {shown}" if shown else "")
 
 
 def _mesh_told(mesh: Mesh) -> str:

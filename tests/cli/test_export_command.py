@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from bikestab import yamltext
-from bikestab.config.file import parse_config
+from bikestab.config.file import load_config, parse_config
 from bikestab.scan.run import run_scan
 
 pyvista = pytest.importorskip("pyvista")
@@ -127,11 +127,28 @@ def test_a_box_without_stable_design(bikestab, volumes, tmp_path):
     assert (code, err) == (0, "")
     assert out == (
         "i.csv: 0 intervals; 16 of 16 designs have no stable speed and no row\n"
-        "s.parquet: 0 curves of 0 points\n"
+        "s.parquet: 0 curves: no design has a stable speed in lam 0 ... 0.1 and sigma 0.03 ... 0.05; "
+        "a larger box may have some\n"
         "no surface in the box: no mesh is written (r.vtp)\n"
     )
     assert {path.name for path in tmp_path.iterdir()} == {"i.csv", "s.parquet"}
     assert (tmp_path / "i.csv").read_text().count("\n") == 1
+
+
+def test_a_box_whose_designs_are_alike_has_no_curve(bikestab, tmp_path):
+    """Of one machine of a sweep, which the skeleton takes by --at."""
+    axes = "lam: {start: 12deg, stop: 24deg, num: 3}, sigma: {start: 0.02, stop: 0.14, num: 3}"
+    text = f"bicycle: meijaard2007\ngrid: {{{axes}, V: {{values: [1, 5]}}}}\n"
+    text += "sweep: {delta: [0, 1]}\noutput: out\nslices: []\n"
+    Path("few.yaml").write_text(text)
+    run_scan(load_config("few.yaml"))
+    mistake(bikestab("export", "out", "--skeleton", "s.csv"), "choose one, for example --at delta=0")
+    code, out, _ = bikestab("export", "out", "--skeleton", "s.csv", "--at", "delta=1")
+    assert code == 0
+    assert out == (
+        "s.csv: 0 curves: all designs are stable from weave to capsize in lam 0.20944 ... 0.418879 and "
+        "sigma 0.02 ... 0.14; a larger box may have some\n"
+    )
 
 
 # --- mistakes
