@@ -96,7 +96,10 @@ def _limits(units: Units) -> str:
 
 
 def united(values: Sequence[Any]) -> list[Any]:
-    """The same with numbers of no unit in that of the others, as the 40 of ``40:80mm``.
+    """The ends of a range, or a value and its uncertainty, with one of no unit in that of the other.
+
+    As the 40 of ``40:80mm``. In lists, of which configs and volumes of earlier versions have some, each value
+    stands for itself: see ``bare_among``.
 
     InputError for numbers of no unit beside two that differ. What is no number stays as it is.
     """
@@ -110,6 +113,16 @@ def united(values: Sequence[Any]) -> list[Any]:
         raise InputError(problem, hint=f"write {first}{next(iter(units))}, or the unit that is meant")
     unit = next(iter(units))
     return [f"{value} {unit}" if alone else value for value, alone in zip(values, bare, strict=True)]
+
+
+def bare_among(values: Sequence[Any]) -> str:
+    """A note on the first number of a list that has no unit, and is in SI units, beside some in others."""
+    strange = {unit for units in _DIMENSIONS.values() for unit, size in units.items() if size != (1, 1)}
+    kinds = [_unit_of(value) for value in values]
+    if strange.isdisjoint(kinds):
+        return ""
+    bare = [value for value, unit in zip(values, kinds, strict=True) if unit == "" and float(value) != 0]
+    return f"{shown(bare[0]).strip(chr(39))} has no unit, so in a list it is in SI units" if bare else ""
 
 
 def in_its_unit(text: str) -> float | None:

@@ -18,6 +18,7 @@ from bikestab.units import (
     MASS,
     PURE,
     SPEED,
+    bare_among,
     quantity,
     united,
     units_in,
@@ -232,6 +233,19 @@ def test_a_long_value_is_quoted_short():
 )
 def test_numbers_without_a_unit_have_that_of_the_others(values, expected):
     assert united(values) == expected
+
+
+@pytest.mark.parametrize(
+    ("values", "bare"),
+    [
+        (["187lb", 85], "85"), (["85", "187 lb"], "85"), ([1, "2m", "3cm"], "1"), ([0, "18deg", 0.5], "0.5"),
+        (["60kg", 85], ""), ([0, "18deg"], ""), ([1, 2], ""), (["1cm", "2mm"], ""), ([None, "x", "1cm"], ""),
+        ([True, "20km/h", {"a": 1}], ""), ([], ""),
+    ],
+)  # fmt: skip
+def test_numbers_of_no_unit_in_a_list_are_told_of(values, bare):
+    """Unless zero, or where what stands beside them is in the SI unit anyway."""
+    assert bare_among(values) == (f"{bare} has no unit, so in a list it is in SI units" if bare else "")
 
 
 def test_which_unit_is_not_guessed():

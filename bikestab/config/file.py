@@ -14,6 +14,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.config.correlation import with_known
 from bikestab.config.expectations import Outcome, outcomes
 from bikestab.config.mistakes import UNKNOWN, apart, translated
+from bikestab.config.oneunit import bare_in_lists
 from bikestab.config.scanconfig import CheckConfig, ScanConfig
 from bikestab.config.values import Strict
 from bikestab.errors import InputError, Mistakes, dotted, nearest, together
@@ -80,7 +81,8 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
     for override in overrides:
         key, document = _override(document, override)
         places[key] = f"--set {override}"
-    return _parsed(document, places, ScanConfig).with_text(document.text)
+    notes = tuple(bare_in_lists(document.data))
+    return _parsed(document, places, ScanConfig).with_text(document.text, notes)
 
 
 def _check_once(overrides: Sequence[str]) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pydantic_core import PydanticCustomError
 
 from bikestab.errors import InputError
-from bikestab.units import united
+from bikestab.units import bare_among, united
 
 
 def mistake(problem: str, hint: str, key: tuple[str | int, ...] = ()) -> PydanticCustomError:
@@ -34,7 +34,7 @@ def in_words(context: Mapping[str, Any] | None, key: tuple[str | int, ...]) -> l
 def one_unit(given: Any) -> Any:
     """An axis as it is given, an end without a unit in that of the other; what is no axis as it is.
 
-    In lists numbers without a unit are in SI units, whatever stands beside them.
+    In lists numbers without a unit are in SI units, whatever stands beside them; see ``bare_in_lists``.
     """
     if not isinstance(given, dict):
         return given
@@ -50,3 +50,17 @@ def in_one_unit(values: Any, key: tuple[str | int, ...] = ()) -> list[Any]:
         return united(values)
     except InputError as error:
         raise mistake(error.problem, error.hint, key) from None
+
+
+def bare_in_lists(data: Any, key: str = "") -> Iterator[str]:
+    """Notes on the lists of a config in which numbers have no unit beside others that have one."""
+    if isinstance(data, dict):
+        for name, value in data.items():
+            if name != "lognormal":  # of which the second is the logarithm's
+                yield from bare_in_lists(value, f"{key}.{name}".lstrip("."))
+    elif isinstance(data, (list, tuple)):
+        if note := bare_among(data):
+            yield f"{key}: {note}"
+        for i, value in enumerate(data):
+            if isinstance(value, (dict, list)):
+                yield from bare_in_lists(value, f"{key}[{i}]")

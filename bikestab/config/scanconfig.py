@@ -117,6 +117,7 @@ class ScanConfig(Strict):
     output: Annotated[str, Field(strict=True, min_length=1, description="folder, from the current directory")]
     expect: Annotated[list[Expectation], Field(description="what 'bikestab check' compares")] = []
     _text: str = PrivateAttr("")
+    _notes: tuple[str, ...] = PrivateAttr(())
 
     @model_validator(mode="before")
     @classmethod
@@ -210,10 +211,10 @@ class ScanConfig(Strict):
 
     @cached_property
     def notes(self) -> list[str]:
-        """What was left out of the bicycle's file, and what is not scaled with a rider's mass."""
+        """What lists have without units, was left out of a file, or is not scaled with a rider's mass."""
         drawn = self.ensemble.parameters if self.ensemble else {}
         note = left_behind(self.bicycle.given, {**self.sweep, **drawn})
-        return [*self.bicycle.notes, *([note] if note else [])]
+        return [*self._notes, *self.bicycle.notes, *([note] if note else [])]
 
     @property
     def text(self) -> str:
@@ -222,10 +223,10 @@ class ScanConfig(Strict):
             self.bicycle, self.model_dump(exclude_defaults=True, exclude={"bicycle"})
         )
 
-    def with_text(self, text: str) -> ScanConfig:
-        """A copy that was read from this YAML text."""
+    def with_text(self, text: str, notes: tuple[str, ...] = ()) -> ScanConfig:
+        """A copy that was read from this YAML text, of which there are ``notes``."""
         config = self.model_copy()
-        config._text = text
+        config._text, config._notes = text, notes
         return config
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> ScanConfig:

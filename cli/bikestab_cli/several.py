@@ -13,7 +13,7 @@ from bikestab_cli.options import BICYCLE, DEFAULT_BICYCLE, equation_options, loa
 from bikestab_cli.parameters import parameter
 
 from bikestab.errors import InputError
-from bikestab.units import united
+from bikestab.units import bare_among
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -77,9 +77,11 @@ def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -
         if name in values:
             raise click.BadParameter(f"{name} is set twice", param=option)
         try:
-            values[name] = [parameter(name, number) for number in united(numbers.split(","))]
+            values[name] = [parameter(name, number) for number in numbers.split(",")]
         except InputError as error:
             raise click.BadParameter(f"{text!r}: {error.problem}; {error.hint}", param=option) from None
+        if note := bare_among(numbers.split(",")):
+            click.echo(f"note: {note} ({text})", err=True)
         if twice := [x for x, number in Counter(values[name]).items() if number > 1]:
             raise click.BadParameter(f"{name}={twice[0]:g} is given twice in {text!r}", param=option)
     return values

@@ -514,8 +514,14 @@ def test_an_end_without_a_unit_takes_that_of_the_other(bikestab):
         bikestab("vrange", "--bicycle", "meijaard2007", "--over", "offset=10:80mm:2", "--json")[1]
     )
     assert [r["offset"] for r in over["results"]] == pytest.approx([0.01, 0.08])
-    changed = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "c=55mm,60", "--json")[1]
-    assert [r["trail"] for r in json.loads(changed)["results"]] == pytest.approx([0.055, 0.06])
+
+
+def test_in_a_list_each_value_stands_for_itself(bikestab):
+    """As in the lists of a config, whose volumes hold what it meant: one rule for both."""
+    code, out, err = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=187lb,85", "--json")
+    assert [r["set"]["mB"] for r in json.loads(out)["results"]] == [84.82177319, 85]
+    assert (code, err) == (0, "note: 85 has no unit, so in a list it is in SI units (mB=187lb,85)\n")
+    assert bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=60,85kg")[2] == ""
 
 
 @pytest.mark.parametrize(

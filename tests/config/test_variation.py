@@ -323,6 +323,10 @@ def test_numbers_of_a_variation_may_have_units():
     config = load(WITH_UNITS)
     assert config.sweep["mB"].points.tolist() == [60, 80, 100]
     assert config.sweep["zB"].points.tolist() == [-0.9, -0.8]
+    assert config.notes == [
+        "sweep.zB: -0.8 has no unit, so in a list it is in SI units",
+        "ensemble.IFyy.normal: 0.01 has no unit, so in a list it is in SI units",
+    ]
     assert config.ensemble.parameters["IFyy"].normal == (0.28, 0.01)
     jsonschema.validate(YAML(typ="safe").load(WITH_UNITS), config_schema())
 
