@@ -1,7 +1,7 @@
-"""Triangles seen from a point, as the pixels of a picture: what is nearer hides, or tints, what is behind it.
+"""Triangles seen from a point, as the pixels of a picture: what is nearer hides what is behind it.
 
-matplotlib sorts whole triangles by their middles, which shows sheets that nearly touch in stripes, and paints
-the seams of clear ones twice.
+Between the stripes of those that are striped, what is behind is seen in its own colours. matplotlib sorts
+whole triangles by their middles, which shows sheets that nearly touch in pieces.
 """
 
 from __future__ import annotations
@@ -13,20 +13,19 @@ from numpy.typing import NDArray
 
 from bikestab.model import Floats
 
-_SIDE = 640  # pixels of the longer side
-_SAME = 1e-12  # depth, of two triangles on their common side
-_LAYERS = 6  # of clear surfaces in front of each other, at most
+_SIDE = 900  # pixels of the longer side
+_EVERY, _WIDE = 24, 9  # pixels from stripe to stripe along a row, and of each stripe
 
 
 class Raster(NamedTuple):
-    """Pixels (row, column, RGBA), the first row at the bottom, and how deep what is not clear is."""
+    """Pixels (row, column, RGBA), the first row at the bottom, and how deep what is not striped is."""
 
     pixels: Floats
     depth: Floats
     extent: tuple[float, float, float, float]  # left, right, bottom, top
 
     def hides(self, x: Floats, y: Floats, depth: Floats) -> NDArray[np.bool_]:
-        """Whether points on the surfaces, or beside them, are behind what is not clear."""
+        """Whether points on the surfaces, or beside them, are behind what is not striped."""
         left, right, bottom, top = self.extent
         rows, columns = self.depth.shape
         row = ((y - bottom) / (top - bottom) * rows).astype(int)
@@ -39,33 +38,26 @@ class Raster(NamedTuple):
         return depth > np.max(around, axis=0)
 
 
-def rasterize(corners: Floats, colours: Floats) -> Raster:
-    """Triangles (n, 3 corners, 3) with x, y and the depth in the picture, each in a colour RGBA (n, 4)."""
+def rasterize(corners: Floats, colours: Floats, stripes: NDArray[np.integer]) -> Raster:
+    """Triangles (n, 3 corners, 3) with x, y and the depth in the picture, each in a colour RGB (n, 3).
+
+    ``stripes`` (n,) is 0 for a triangle that is whole, 1 and −1 for one of stripes that rise and fall to the
+    right.
+    """
     low, high = corners[..., :2].min(axis=(0, 1)), corners[..., :2].max(axis=(0, 1))
     size = float((high - low).max()) / _SIDE or 1.0  # all in one point
     columns, rows = np.ceil((high - low) / size).astype(int) + 1
     pixel, triangle, depth = _fragments(corners, low, size, int(columns))
+    kind = stripes[triangle]
+    there = (kind == 0) | ((pixel % columns - kind * (pixel // columns)) % _EVERY < _WIDE)
+    pixel, triangle, depth, kind = pixel[there], triangle[there], depth[there], kind[there]
     order = np.argsort(-depth)  # the nearest is written last
-    pixel, triangle, depth = pixel[order], triangle[order], depth[order]
     seen = np.zeros((rows * columns, 4))
-    solid, front = np.full((2, rows * columns), np.inf)
-    for _ in range(_LAYERS):
-        nearest = np.full(rows * columns, -1)
-        nearest[pixel] = np.arange(len(pixel))
-        there = np.flatnonzero(nearest >= 0)
-        which = nearest[there]
-        colour = colours[triangle[which]]
-        left = (1 - seen[there, 3]) * colour[:, 3]
-        seen[there, :3] += left[:, np.newaxis] * colour[:, :3]
-        seen[there, 3] += left
-        ends = colour[:, 3] == 1
-        solid[there[ends]] = depth[which[ends]]
-        front[there] = depth[which]
-        behind = np.isinf(solid[pixel]) & (depth > front[pixel] + _SAME)  # neighbours share pixels on a side
-        pixel, triangle, depth = pixel[behind], triangle[behind], depth[behind]
-        if not len(pixel):
-            break
-    seen[:, :3] /= np.maximum(seen[:, 3:], 1e-9)
+    seen[pixel[order], :3] = colours[triangle[order]]
+    seen[pixel, 3] = 1
+    whole = order[kind[order] == 0]
+    solid = np.full(rows * columns, np.inf)
+    solid[pixel[whole]] = depth[whole]
     left_low = (float(low[0]), float(low[0] + columns * size), float(low[1]), float(low[1] + rows * size))
     return Raster(seen.reshape(rows, columns, 4), solid.reshape(rows, columns), left_low)
 

@@ -33,10 +33,9 @@ from bikestab.region.triangulation import sides_of
 from bikestab.speeds import CAPSIZE, KINDS, WEAVE, intervals_of
 from bikestab.volume import Subject
 
-# two colours of Okabe and Ito (2008) that differ in greyscale too
-SHEETS = {WEAVE: ("#0072b2", "weave boundary"), CAPSIZE: ("#e69f00", "capsize boundary")}
+# two colours of Okabe and Ito (2008) that differ in greyscale too; which way stripes go, and their hatch
+SHEETS = {WEAVE: ("#0072b2", "weave", -1, r"\\\\"), CAPSIZE: ("#e69f00", "capsize", 1, "////")}
 _CELLS = 48  # of the mesh, per axis
-_CLEAR = 0.5  # of the upper sheet
 _LONG = 28  # letters of a label, with which it fits beside an axis
 _LIGHT = np.array([-0.45, -0.6, 0.66])  # direction to the light, in units of the box
 _SIZE = 9  # of words beside axes
@@ -77,7 +76,7 @@ def draw_region(subject: Subject) -> Figure:
     handles += _own_design(ax, family, box)
     rows = legend_below(figure, handles, handlelength=2)
     unusual = remarks(family.bicycle, family.model, {family.x, family.y})
-    what = f"{short(family.bicycle.name)}: stable between lower and upper sheet{unusual}"
+    what = f"{short(family.bicycle.name)}: stable above the lower and below the upper limit{unusual}"
     set_title(ax, subject.title, what, y=1)
     arrange_region(figure, ax, rows)
     return figure
@@ -110,17 +109,18 @@ def draw_mesh(
 
 
 def _surface(ax: Axes3D, mesh: Mesh, ends: Floats) -> Raster:
-    """Draw the surface, each triangle lit, the lower sheets seen through the upper."""
+    """Draw the surface, each triangle lit, the lower sheets seen between the stripes of the upper."""
     unit = (mesh.points - ends[:, 0]) / (ends[:, 1] - ends[:, 0])
     a, b, c = unit[mesh.triangles].swapaxes(0, 1)
     normal = np.cross(b - a, c - a)
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
     light = 0.55 + 0.45 * np.abs(normal @ _LIGHT)  # both sides are seen
-    colour = np.full((len(KINDS), 3), 0.5)
-    colour[list(SHEETS)] = [to_rgb(name) for name, _ in SHEETS.values()]
-    clear = np.where(mesh.upper, _CLEAR, 1.0)
-    faces = np.column_stack([colour[mesh.kind] * light[:, np.newaxis], clear])
-    raster = rasterize(_projected(ax, mesh.points)[mesh.triangles], faces)
+    colour, way = np.full((len(KINDS), 3), 0.5), np.zeros(len(KINDS), int)
+    for kind, (name, _, stripes, _) in SHEETS.items():
+        colour[kind], way[kind] = to_rgb(name), stripes
+    faces = colour[mesh.kind] * light[:, np.newaxis]
+    corners = _projected(ax, mesh.points)[mesh.triangles]
+    raster = rasterize(corners, faces, np.where(mesh.upper, way[mesh.kind], 0))
     image = AxesImage(ax, extent=raster.extent, origin="lower", interpolation="bilinear", zorder=1)
     image.set_data(raster.pixels)
     image.set_clip_on(False)
@@ -174,7 +174,13 @@ def _own_design(ax: Axes3D, family: Family, box: Sequence[tuple[float, float]]) 
 
 
 def _legend(mesh: Mesh, lines: list[Line2D]) -> list[Patch | Line2D]:
-    patches = [
-        Patch(facecolor=colour, label=label) for kind, (colour, label) in SHEETS.items() if kind in mesh.kind
-    ]
+    """What is said of the sheets that there are, whole ones and striped ones, and of lines."""
+    patches = []
+    for kind, (colour, name, _, hatch) in SHEETS.items():
+        there = mesh.kind == kind
+        if np.any(there & ~mesh.upper):
+            patches.append(Patch(facecolor=colour, label=f"{name}: lower limit"))
+        if np.any(there & mesh.upper):
+            label = f"{name}: upper limit (striped)"
+            patches.append(Patch(facecolor="white", edgecolor=colour, hatch=hatch, lw=0, label=label))
     return [*patches, *lines]

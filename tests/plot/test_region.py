@@ -42,15 +42,22 @@ def words(figure):
 
 
 def test_two_sheets_in_two_colours(drawn):
+    """Each pixel has the colour of one of them, lit: no mix of the two."""
     figure = drawn()
     ((surface,),) = (figure.axes[0].images,)
     colours = surface.get_array().reshape(-1, 4)
+    assert {*np.unique(colours[:, 3])} == {0, 1}
     colours = colours[colours[:, 3] > 0, :3]
     hue = colours / np.linalg.norm(colours, axis=1, keepdims=True)
-    for colour, label in SHEETS.values():
+    seen = np.zeros(len(hue), bool)
+    for colour, name, _, _ in SHEETS.values():
         expected = np.array(to_rgb(colour)) / np.linalg.norm(to_rgb(colour))
-        assert np.isclose(hue, expected, atol=1e-6).all(axis=1).sum() > 100
-        assert label in words(figure)
+        there = np.isclose(hue, expected, atol=1e-6).all(axis=1)
+        assert there.sum() > 100
+        assert f"{name}: lower limit" in words(figure)
+        seen |= there
+    assert "capsize: upper limit (striped)" in words(figure)
+    assert seen.mean() > 0.999  # but for what closes gaps
 
 
 def test_axes_are_the_volumes_box(drawn):
@@ -98,8 +105,8 @@ def test_forks_are_straight_on_a_line_of_the_floor(drawn):
 
 def test_a_vertical_wall(drawn):
     figure = drawn("kooijman2011")
-    assert "weave boundary" in words(figure)
-    assert "capsize boundary" in words(figure)
+    assert "weave: lower limit" in words(figure)
+    assert "capsize: lower limit" in words(figure)
     assert "the region goes on beyond the box" in words(figure)
 
 
