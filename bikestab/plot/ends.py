@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, ticks_inside
-from bikestab.plot.headings import set_title, short
+from bikestab.plot.headings import in_rows, set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import Curve, Line, label_curves, lines_for
@@ -193,7 +193,7 @@ def _bars(ax: Axes, machines: Sequence[tuple[str, Answers]], lines: Sequence[Lin
             ax.plot(speeds, at, "|-", color="0.2", lw=1, ms=7)
         if not intervals:
             ax.annotate("no stable speed", (0, row), (6, 0), textcoords="offset points", va="center")
-    ax.set_yticks(range(len(machines)), [short(name) for name, _ in machines], parse_math=False)
+    ax.set_yticks(range(len(machines)), [in_rows(name) for name, _ in machines], parse_math=False)
     ax.set_ylim(len(machines) - 0.5, -0.7)
     ax.set_xlim(0, top)
     ax.set_xlabel(LABELS["V"])

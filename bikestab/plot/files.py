@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from bikestab.errors import InputError, nearest
 from bikestab.files import PICTURES, written
+from bikestab.plot.letters import make_drawable
 from bikestab.plot.png import png
 from bikestab.plot.settings import own_settings
 from bikestab.plot.ticks import plain_numbers
@@ -44,6 +45,7 @@ def save(figure: Figure, path: Path) -> None:
 def drawn(figure: Figure, ending: str = "png") -> bytes:
     """The picture as a file's content; some formats end in errors of their own where a disk is full."""
     plain_numbers(figure)
+    make_drawable(figure)
     if (
         ending == "png"
     ):  # matplotlib's own draws every figure twice, and takes longer to compress it than to draw

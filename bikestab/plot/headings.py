@@ -1,28 +1,56 @@
-"""Titles of pictures: texts of any length and script, wrapped, cut, in fonts that have their letters."""
+"""Titles of pictures and names in them: texts of any length, wrapped and cut."""
 
 from __future__ import annotations
 
 import re
 import textwrap
-from itertools import takewhile
+from itertools import accumulate, takewhile
 from typing import Any
+from unicodedata import east_asian_width
 
 from matplotlib import font_manager
 from matplotlib.axes import Axes
 
+from bikestab.plot.letters import FONT
+
 _ON_AN_INCH = 11.5  # of size 10 on an inch, on the mean
 _ROWS = 2
 _NAME = 40
-_MISSING = "\N{REPLACEMENT CHARACTER}"
+ROW = 26  # columns of a name beside axes
 _KEPT = "\N{NO-BREAK SPACE}"
-_FONT = "DejaVu Sans"  # which comes with matplotlib
 
 
 def short(name: str) -> str:
     """A name on one line, without its middle where it is long."""
     name = " ".join(name.split())
-    half = _NAME // 2 - 1
-    return name if len(name) <= _NAME else f"{name[:half]}…{name[-half:]}"
+    if columns(name) <= _NAME:
+        return name
+    return f"{_first(name, _NAME // 2 - 1)}…{_first(name[::-1], _NAME // 2 - 1)[::-1]}"
+
+
+def in_rows(name: str) -> str:
+    """The same beside axes, in two rows where it is long: of whole words, if these are about half of it."""
+    name = short(name)
+    if columns(name) <= ROW:
+        return name
+    first = _first(name, ROW)
+    cut = max(first.rfind(gap) for gap in (" ", "_", "-", "…", "/")) + 1
+    first = first[:cut] if columns(name[cut:]) <= ROW else first
+    return f"{first.rstrip()}\n{name[len(first) :].lstrip()}"
+
+
+def columns(text: str) -> int:
+    """How wide a text is in letters; those of East Asia are two."""
+    return sum(_wide(letter) for letter in text)
+
+
+def _wide(letter: str) -> int:
+    return 1 + (not letter.isascii() and east_asian_width(letter) in "WF")
+
+
+def _first(text: str, most: int) -> str:
+    """As much of a text as fits so many columns."""
+    return text[: sum(at <= most for at in accumulate(map(_wide, text)))]
 
 
 def set_title(ax: Axes, *lines: str, panels: int = 1, **options: Any) -> None:
@@ -32,9 +60,7 @@ def set_title(ax: Axes, *lines: str, panels: int = 1, **options: Any) -> None:
     """
     figure: Any = ax.figure
     rows = [row for line in lines for row in _rows(line, int(_ON_AN_INCH * figure.get_figwidth() / panels))]
-    text, fonts = _drawable("\n".join(rows))
-    options = {"fontsize": 10, **options}
-    ax.set_title(text, parse_math=False, fontfamily=fonts, **options)
+    ax.set_title("\n".join(rows), parse_math=False, **{"fontsize": 10, **options})
 
 
 def _rows(line: str, width: int) -> list[str]:
@@ -60,27 +86,7 @@ def _wrapped(line: str, width: int, **options: Any) -> list[str]:
 
 def text_width(text: str, size: float) -> float:
     """The width of a line of text [inches] in letters of so many points."""
-    font = font_manager.get_font(font_manager.findfont(_FONT))
+    font = font_manager.get_font(font_manager.findfont(FONT))
     font.set_size(size, 72)
     font.set_text(text)
     return float(font.get_width_height()[0]) / 64 / 72
-
-
-def _drawable(text: str) -> tuple[str, list[str]]:
-    """The text, and the fonts in which it is drawn; a letter that no font has becomes one that says so."""
-    fonts = [_FONT]
-    missing = {c for c in text if c != "\n"} - _letters(font_manager.findfont(_FONT), text)
-    for entry in font_manager.fontManager.ttflist if missing else ():
-        if entry.name not in fonts and (has := missing & _letters(entry.fname, "".join(missing))):
-            fonts.append(entry.name)
-            missing -= has
-    return "".join(_MISSING if c in missing else c for c in text), fonts
-
-
-def _letters(file: str, text: str) -> set[str]:
-    """Those letters of the text that a font has."""
-    try:
-        font = font_manager.get_font(file)
-        return {c for c in text if c.isprintable() and font.get_char_index(ord(c))}
-    except (OSError, RuntimeError):  # a file that is no font, or is no more
-        return set()

@@ -51,16 +51,21 @@ def import_matplotlib() -> None:
 
 @contextmanager
 def own_settings() -> Iterator[None]:
-    """Within it matplotlib has the settings it comes with."""
+    """Within it matplotlib has the settings it comes with.
+
+    Nor does it warn of letters that its font lacks: what is written gets others (``letters``).
+    """
     import matplotlib
 
     ours, now = matplotlib.rcParamsDefault, matplotlib.rcParams
-    if all(now[name] == ours[name] for name in ours if not name.startswith("backend")):
-        yield  # to set them again reads all styles that there are
-        return
-    with matplotlib.rc_context():
-        matplotlib.rcdefaults()
-        yield
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from")
+        if all(now[name] == ours[name] for name in ours if not name.startswith("backend")):
+            yield  # to set them again reads all styles that there are
+            return
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()
+            yield
 
 
 @contextmanager

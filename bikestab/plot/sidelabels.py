@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from bikestab.errors import InputError
 from bikestab.model import Floats
 from bikestab.plot.axes import HALO
-from bikestab.plot.headings import short
+from bikestab.plot.headings import ROW, columns, in_rows
 from bikestab.plot.placing import Room, beside
 
 # Tol 2021, bright, without its grey; the dashes change with the colours, for greyscale, and differ from each
@@ -26,7 +26,6 @@ _RIGHT = 0.9  # of the axes' width: where what ends is named at their side
 _LINE = 13 / 72  # inches of a line of text
 _SAME = 1.0  # points between curves that lie on each other, at most
 _SAMPLES = 201  # of a curve, to compare it with others
-_ROW = 40  # letters of names in a row
 
 
 class Line(NamedTuple):
@@ -62,7 +61,7 @@ def label_curves(ax: Axes, curves: Sequence[Curve]) -> None:
     names, x, y, colors = [], [], [], []
     for group in _together(ax, curves):
         first = curves[group[0]]
-        names.append(_in_rows(first.what, [short(curves[i].name) for i in group]))
+        names.append(_in_rows(first.what, [in_rows(curves[i].name) for i in group]))
         end = _end(first)
         x.append(end[0])
         y.append(end[1])
@@ -110,7 +109,7 @@ def _in_rows(what: str, names: Sequence[str]) -> str:
     rows = [f"{what}: "] if what else [""]
     for i, name in enumerate(names):
         part = name if i == len(names) - 1 else f"{name}, "
-        if rows[-1] and len(rows[-1]) + len(part) > _ROW and i:
+        if rows[-1] and columns(rows[-1] + part) > ROW and i:
             rows.append("")
         rows[-1] += part
     return "\n".join(row.strip() for row in rows)

@@ -4,10 +4,12 @@ import pytest
 
 from bikestab.design import best, search
 from bikestab.plot import files
+from bikestab.plot.letters import make_drawable
 from bikestab.plot.ticks import plain_numbers
 from tests.words import faults, offsets
 
 PAPER = "--lam 0.2 --sigma 0.08"
+NAMED = "--bicycle named.yaml --bicycle lettered.yaml --bicycle sharp1971"
 ALL = "--bicycle meijaard2007 --bicycle sharp1971 --bicycle kooijman2011"
 COMMANDS = [
     f"eigen {PAPER}",
@@ -62,6 +64,13 @@ COMMANDS = [
     "compare meijaard2007 meijaard2007",
     "compare meijaard2007 heavier.yaml",
     "compare meijaard2007 longer.yaml",
+    f"vrange {NAMED}",
+    f"vrange {NAMED} --trail 0:15cm:7",
+    f"eigen {NAMED} --V 0:10:5",
+    f"eigen {NAMED} --locus",
+    f"design {NAMED}",
+    f"sensitivity {NAMED}",
+    "compare meijaard2007 named.yaml",
     f"bicycles dikarev1981 {PAPER}",
     "bicycles meijaard2007",
     "bicycles sharp1971",
@@ -76,6 +85,7 @@ def figures(monkeypatch):
 
     def save(figure, path):
         plain_numbers(figure)
+        make_drawable(figure)
         drawn.append(figure)
 
     monkeypatch.setattr(files, "save", save)
@@ -91,11 +101,15 @@ def coarse(monkeypatch):
 
 @pytest.fixture(autouse=True)
 def nearly(bikestab, tmp_path):
-    """Files of machines that differ little from meijaard2007: in a mass alone, and in the trail."""
+    """Files of machines that differ little from meijaard2007: in a mass, in the trail, in their names."""
     _, text, _ = bikestab("bicycles", "meijaard2007")
-    for name, old, new in (("heavier", "mB: 85 ", "mB: 86 "), ("longer", "c: 0.08 ", "c: 0.081 ")):
+    for name, old, new in (
+        ("heavier", "mB: 85 ", "mB: 86 "), ("longer", "c: 0.08 ", "c: 0.081 "),
+        ("named", "name: meijaard2007", f"name: {'a name of many words ' * 9}"),
+        ("lettered", "name: meijaard2007", "name: 自転車の安定性を調べるための標準的な二輪車モデル"),
+    ):  # fmt: skip
         assert old in text
-        (tmp_path / f"{name}.yaml").write_text(text.replace(old, new))
+        (tmp_path / f"{name}.yaml").write_text(text.replace(old, new), encoding="utf-8")
 
 
 @pytest.mark.parametrize("command", COMMANDS)
