@@ -21,6 +21,8 @@ NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}  # make room, and the same 
 NOT_THERE = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EISDIR}
 NOT_THERE |= {errno.ELOOP, errno.ENAMETOOLONG, errno.EINVAL, errno.EEXIST, errno.ENOTEMPTY, errno.ENXIO}
 NOT_THERE |= {errno.ENODEV, errno.ETXTBSY}
+MAKE_ROOM = "make room there, and give the same command again"
+_SHORTER = "choose another name"
 _OPEN = re.compile(r"/dev/(?:(?P<name>stdin|stdout|stderr)|fd/(?P<number>\d{1,6}))")
 _NAMES = {"stdin": 0, "stdout": 1, "stderr": 2}
 
@@ -99,12 +101,26 @@ def to_stdout(path: str | Path) -> bool:
 def unwritable(path: str | Path, error: OSError | ValueError) -> BikestabError:
     """What to raise where ``path`` could not be written: the user's mistake, or the disk's failure."""
     if isinstance(error, ValueError):
-        return InputError("cannot be written (no file has such a name)", place=str(path))
+        return InputError("cannot be written (no file has such a name)", place=str(path), hint=_SHORTER)
     if error.errno in NO_SPACE:
-        return ScanError(f"{path}: the disk is full")
+        return ScanError(f"{path}: the disk is full\n{MAKE_ROOM}")
     if error.errno in NOT_THERE:
-        return InputError(f"cannot be written ({error.strerror})", place=str(path))
+        hint = _advice(path, error.errno)
+        return InputError(f"cannot be written ({error.strerror})", place=str(path), hint=hint)
     return ScanError(f"{path}: cannot be written ({error.strerror or error})")
+
+
+def _advice(path: str | Path, number: int | None) -> str:
+    """What to do about a place at which nothing can be written."""
+    folder = Path(path).parent
+    if number == errno.ENOENT and not folder.exists():
+        return f"its folder is not there: 'mkdir -p {folder}' makes it"
+    advice = {
+        errno.EISDIR: f"it is a folder: name a file in it, as {Path(path, 'NAME')}",
+        errno.ENOTDIR: f"{folder} is a file or in one, and no folder",
+        errno.ENAMETOOLONG: _SHORTER,
+    }
+    return advice.get(number or 0, "nothing can be made there: choose another place")
 
 
 def _status(path: str | Path) -> os.stat_result | None:

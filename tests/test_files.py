@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from bikestab.errors import InputError, ScanError
-from bikestab.files import NO_SPACE, check_writable, to_stdout, unwritable, written
+from bikestab.files import MAKE_ROOM, NO_SPACE, check_writable, to_stdout, unwritable, written
 
 
 def test_the_file_appears_when_it_is_whole(tmp_path):
@@ -50,14 +50,22 @@ def test_after_an_error_the_old_file_is_there(tmp_path, error):
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize("name", ["none/a.csv", "file/a.csv", "folder", "a" * 256, ".", "/"])
+ADVICE = {
+    "none/a.csv": "'mkdir -p none' makes it", "file/a.csv": "file is a file or in one, and no folder",
+    "folder": "it is a folder: name a file in it, as folder/NAME", "a" * 256: "choose another name",
+    ".": "name a file in it", "/": "name a file in it", "/proc/a.csv": "nothing can be made there",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ADVICE)
 def test_where_no_file_can_be(tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "file").touch()
     (tmp_path / "folder").mkdir()
     words = "^" + re.escape(name) + r": cannot be written \("
-    with pytest.raises(InputError, match=words), written(name) as part:
+    with pytest.raises(InputError, match=words) as caught, written(name) as part:
         part.write_text("new")
+    assert ADVICE[name] in caught.value.hint
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["file", "folder"]
 
 
@@ -79,7 +87,9 @@ def test_mistakes_name_the_file_and_not_its_part(tmp_path):
 
 def test_the_disks_failure_is_nobodys_mistake():
     for number in NO_SPACE:
-        assert str(unwritable("a", OSError(number, os.strerror(number)))) == "a: the disk is full"
+        assert (
+            str(unwritable("a", OSError(number, os.strerror(number)))) == f"a: the disk is full\n{MAKE_ROOM}"
+        )
         assert isinstance(unwritable("a", OSError(number, "")), ScanError)
     assert isinstance(unwritable("a", OSError(5, "Input/output error")), ScanError)
     assert isinstance(unwritable("a", PermissionError(13, "Permission denied")), InputError)

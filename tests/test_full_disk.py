@@ -16,6 +16,7 @@ from bikestab.errors import ScanError
 from bikestab.export.meshes import MESHES, save_mesh
 from bikestab.export.tables import TABLES, save_table
 from bikestab.family import Family
+from bikestab.files import MAKE_ROOM
 from bikestab.paper1981.reproduce import _put
 from bikestab.plot.files import save
 from bikestab.region.mesh import region_mesh
@@ -91,7 +92,7 @@ def test_what_was_there_stays(tmp_path, mesh, ending, short):
 
     put(tmp_path / f"warm{ending}")  # which imports what it needs
     (tmp_path / f"warm{ending}").unlink()
-    with short(tmp_path), pytest.raises(ScanError, match=r"a\.\w+: the disk is full$"):
+    with short(tmp_path), pytest.raises(ScanError, match=rf"a\.\w+: the disk is full\n{MAKE_ROOM}$"):
         put(path)
     assert path.read_bytes() == OLD
     assert list(tmp_path.iterdir()) == [path]
@@ -106,6 +107,6 @@ def test_init_force(tmp_path, monkeypatch, capsys, short):
     with short(tmp_path), pytest.raises(SystemExit) as end:
         main()
     assert end.value.code == 3
-    assert capsys.readouterr().err == f"error: {path}: the disk is full\n"
+    assert capsys.readouterr().err == f"error: {path}: the disk is full\n  {MAKE_ROOM}\n"
     assert path.read_bytes() == OLD
     assert list(tmp_path.iterdir()) == [path]

@@ -53,7 +53,8 @@ def make_folder(config: ScanConfig) -> None:
         if error.errno in NO_SPACE:
             raise unfinished(config, error) from None
         problem = f"{config.output} cannot be made ({error.strerror})"
-        raise InputError(problem, key=("output",), hint="choose another folder") from None
+        is_file = "it is a file, and no folder: " if isinstance(error, FileExistsError) else ""
+        raise InputError(problem, key=("output",), hint=f"{is_file}choose another folder") from None
     if path.exists() and not path.is_file():
         raise InputError(f"{path} is no file", key=("output",), hint="move it away, or choose another output")
 
@@ -75,17 +76,28 @@ def check_size(config: ScanConfig) -> None:
     except OSError as error:  # a name that is too long, say
         problem = f"{shown(config.output)} is no folder name ({error.strerror})"
         raise InputError(problem, key=("output",)) from None
-    room = shutil.disk_usage(folder).free
+    usage = shutil.disk_usage(folder)
+    if not usage.total:  # no disk, such as /proc: what cannot be made there is told of when it is
+        return
+    room = usage.free
     for old in (volume_path(config), tiles_path(config)):  # what an earlier run has of it
         with suppress(OSError):
             room += old.stat().st_size
     if needed > room:
         size = " × ".join(str(n) for n in plan.shape)
         raise InputError(
-            f"the grid {size} needs {needed / 1e9:.4g} GB of disk, and {folder} has {room / 1e9:.4g} GB",
+            f"the grid {size} needs {_size(needed)} of disk, and {folder} has {_size(room)}",
             key=key,
             hint="make room, choose another output, or take fewer values or fields",
         )
+
+
+def _size(number: float) -> str:
+    """Bytes in the unit in which they are at least one."""
+    for unit, name in ((1e9, "GB"), (1e6, "MB"), (1e3, "kB")):
+        if number >= unit:
+            return f"{number / unit:.4g} {name}"
+    return f"{number:.4g} B"
 
 
 def own_volume(plan: Plan) -> int | None:

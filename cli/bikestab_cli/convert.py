@@ -76,7 +76,7 @@ def command(bicycle_name: str, output: str | None, rider: str | None, notation: 
     if not output:
         click.echo(text, nl=False)
         return
-    if Path(output).exists() and not force:
+    if Path(output).is_file() and not force:
         raise InputError("exists already", place=output, hint="--force replaces it")
     with written(output) as part:
         part.write_text(text, "utf-8")

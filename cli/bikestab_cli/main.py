@@ -17,7 +17,7 @@ from bikestab_cli.streams import tell_error, visible_streams
 
 from bikestab import __version__
 from bikestab.errors import BikestabError, InputError, ScanError, nearest
-from bikestab.files import NOT_THERE
+from bikestab.files import MAKE_ROOM, NO_SPACE, NOT_THERE
 
 COMMANDS = (
     "scan", "vrange", "sensitivity", "eigen", "design", "slice", "export", "report", "reproduce", "certify",
@@ -93,7 +93,8 @@ def main(program: str = "bikestab") -> None:
             _drop_output()
         except OSError as error:
             _drop_output()
-            code = _tell(3, f"could not finish: {error.strerror or error}", "" if _somewhere() else NOWHERE)
+            hint = MAKE_ROOM if error.errno in NO_SPACE else "" if _somewhere() else NOWHERE
+            code = _tell(3, f"could not finish: {error.strerror or error}", hint)
     sys.exit(code)
 
 

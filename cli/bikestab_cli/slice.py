@@ -83,7 +83,7 @@ def command(
             value = near
         name = slice_name({fixed: value, **machine}, field)
         path = Path(output) if output else opened.path.parent / name
-        if not path.suffix:
+        if not path.suffix and not path.exists():
             path = path.with_name(path.name + ".png")
         figure = draw_slice(opened.at(machine), fixed, value, field)
         save(figure, path)

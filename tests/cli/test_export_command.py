@@ -12,6 +12,7 @@ import pytest
 
 from bikestab import yamltext
 from bikestab.config.file import load_config, parse_config
+from bikestab.files import MAKE_ROOM
 from bikestab.scan.run import run_scan
 
 pyvista = pytest.importorskip("pyvista")
@@ -223,7 +224,7 @@ def test_a_full_disk_leaves_no_file(bikestab, volumes, monkeypatch, tmp_path):
 
     monkeypatch.setattr("pathlib.Path.write_bytes", full)
     code, out, err = bikestab("export", volumes["1981"], "--mesh", "r.ply", "--cells", 10)
-    assert (code, out, err) == (3, "", "error: r.ply: the disk is full\n")
+    assert (code, out, err) == (3, "", f"error: r.ply: the disk is full\n  {MAKE_ROOM}\n")
     assert not list(tmp_path.iterdir())
 
 
