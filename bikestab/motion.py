@@ -122,6 +122,7 @@ def motion(
             moved = _of_modes(vectors, found.eigenvalues, x0, t)
         else:
             moved = _of_matrix(*matrices(bicycle, found.V, lam, sigma, model=model), x0, t)
+        moved.states[:, t == 0] = x0[:, np.newaxis]  # as given, without the rounding of the sum
         tilt, trail = (float(value) for value in design_of(bicycle, lam, sigma))
         result = _path(bicycle, (tilt, trail), found.V, t, moved)
     if not all(np.all(np.isfinite(values)) for values in result[1:]):
@@ -194,6 +195,6 @@ def _path(bicycle: Bicycle, design: tuple[float, float], V: float, t: Floats, mo
     lam, trail = design[0], design[1] * bicycle.c
     turn, steer, start = math.cos(lam) / bicycle.c, moved.states[1], moved.start
     yaw = turn * (V * moved.once + trail * (steer - start))
-    y = V * turn * (V * moved.twice + trail * (moved.once - start * t))
+    y = V * turn * (V * moved.twice + trail * (moved.once - start * t)) + 0.0  # not -0
     front = y + bicycle.c * yaw - trail * math.cos(lam) * steer
     return Motion(V, t, moved.states, yaw, V * t, y, front)

@@ -132,8 +132,23 @@ def check_names(bicycle: Bicycle, names: Mapping[str, str]) -> None:
 
 
 def check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
-    """Raise InputError, with the parameter's name as key, for values that no machine can have."""
+    """Raise InputError, with a parameter's name as key, for values that no machine can have.
+
+    Where these leave another parameter with a value it cannot have, the mistake tells what they are.
+    """
+    try:
+        _check_values(bicycle, values)
+    except InputError as error:
+        if not error.key or error.key[0] in values:
+            raise
+        given = ", ".join(f"{name} = {value:g}" for name, value in values.items())
+        problem = f"with {given}: {error.problem}"
+        raise InputError(problem, key=(next(iter(values)),), hint=error.hint) from None
+
+
+def _check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
     fronts = {front_of(bicycle, name): name for name in values}
+    _replaced(bicycle, values, {})
     if "offset" in fronts and "trail" in fronts:
         radius = float(varied(bicycle, values)[0].R2)
         if not abs(values["offset"]) < radius:
@@ -143,7 +158,6 @@ def check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
     _, lam, sigma = varied(bicycle, values)
     check_tilt(float(lam), (fronts.get("tilt", fronts.get("offset", "lam")),))
     check_trail(float(sigma), (fronts.get("trail", fronts.get("offset", "sigma")),))
-    machine_at(bicycle, values)
 
 
 def machine_at(bicycle: Bicycle, values: Mapping[str, float]) -> tuple[Bicycle, float, float]:
@@ -154,16 +168,20 @@ def machine_at(bicycle: Bicycle, values: Mapping[str, float]) -> tuple[Bicycle, 
     """
     _, tilt, trail = varied(bicycle, values)
     lam, sigma = float(tilt), float(trail)
+    return _replaced(bicycle, values, {"lam": lam, "sigma": sigma}), lam, sigma
+
+
+def _replaced(bicycle: Bicycle, values: Mapping[str, float], front: Mapping[str, float]) -> Bicycle:
+    """The machine with what is not of the front in these values; one of two parts with this ``front``."""
     rest = {name: value for name, value in values.items() if not front_of(bicycle, name)}
     given = {name: value for name, value in rest.items() if name in bicycle.notation}
     parts = {name: value for name, value in rest.items() if name not in given}
     machine = bicycle.replaced(given) if given else bicycle
     if not parts:
-        return machine.measured(bicycle.deviations, bicycle.correlations, machine.notes), lam, sigma
+        return machine.measured(bicycle.deviations, bicycle.correlations, machine.notes)
     gone = superseded(parts, "sigma")  # R1 and R2 by R
     own = {name: value for name, value in machine.numbers().items() if name not in gone}
-    two = Bicycle.from_mapping({**own, "lam": lam, "sigma": sigma, **parts}, name=bicycle.name)
-    return two, lam, sigma
+    return Bicycle.from_mapping({**own, **front, **parts}, name=bicycle.name)
 
 
 def own_value(bicycle: Bicycle, name: str) -> float | None:

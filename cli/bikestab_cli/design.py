@@ -185,7 +185,7 @@ def command(
         lam = _tilts(head_angle)
     machines = machines_chosen(bicycle_name, delta, changes)
     ends = (over[x], over[y]) if over else (lam, sigma)
-    named = dict.fromkeys(over, "--over") | {"x": "--over", "y": "--over"} if over else {}
+    named = dict.fromkeys((*over, "x", "y", "lam", "sigma"), "--over") if over else {}
     with told_as_options(judged="--V", V_max="--V-max", **named):
         asked = [
             Wanted(Family(each.bicycle, model, x, y), *ends, trail, V_max, judged, stable, offset)

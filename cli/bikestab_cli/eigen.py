@@ -127,5 +127,8 @@ def _check_picture(view: View, speeds: list[float], locus: bool, output: str | N
     """Refuse pictures that cannot be drawn."""
     if output and min(speeds) == max(speeds) and not view.kind:
         raise click.BadParameter("a picture needs a range, for example 0:10:21", param_hint="--V")
-    if locus and (not output or view.kind):
-        raise click.BadParameter("it is a picture of its own: give -o FILE", param_hint="--locus")
+    if locus and view.kind:
+        problem = f"it is a picture of its own, and so is that of --{view.kind}: give one of them"
+        raise click.BadParameter(problem, param_hint="--locus")
+    if locus and not output:
+        raise click.BadParameter("it is a picture: give -o FILE", param_hint="--locus")

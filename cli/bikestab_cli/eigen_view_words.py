@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from bikestab_cli.eigen_words import eigenvalue_table
-from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, prose, table
+from bikestab_cli.eigen_words import eigenvalue, eigenvalue_table, narrowed
+from bikestab_cli.output import DESIGN_HEAD, aligned, decimals, design_columns, heading, prose, table
 
 if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
@@ -18,26 +18,38 @@ if TYPE_CHECKING:
     from bikestab.motion import Motion, Shapes
 
 _ROWS = 11  # of a motion
+_LETTERS = 9  # of its numbers
 _MOST = 60  # values of a parameter
 
 
 def told_shapes(machine: Chosen, design: Any, found: Shapes, model: Model) -> str:
     """Size and phase of roll and steer in each mode; of a pair those of the upper one."""
-    rows = []
-    for name, s, (roll, steer) in zip(found.names, found.eigenvalues, found.phasors.T, strict=True):
-        if s.imag < 0:
-            continue
-        value = f"{s.real:z.6f}" + (f" ± {s.imag:z.6f}i" if s.imag else "")
-        rows.append([name, value, *_polar(roll), *_polar(steer)])
+    upper = [k for k, s in enumerate(found.eigenvalues) if s.imag >= 0]
+
+    def shown(digits: int) -> str:
+        rows = []
+        for k in upper:
+            s, (roll, steer) = found.eigenvalues[k], found.phasors[:, k]
+            rows.append([_named(found, k, upper), eigenvalue(s, digits), *_polar(roll), *_polar(steer)])
+        return table(head, rows)
+
     head = ["mode", "eigenvalue [1/s]", "roll", "phase [°]", "steer", "phase [°]"]
     note = "the larger of the two is 1; positive to the right; rates are these times the eigenvalue"
-    return _whole(machine, design, model, [f"mode shapes at {found.V:.6g} m/s", table(head, rows), note])
+    return _whole(machine, design, model, f"mode shapes at {found.V:.6g} m/s", narrowed(shown), note)
+
+
+def _named(found: Shapes, k: int, modes: Sequence[int]) -> str:
+    """The name of a mode, and which it is of two real ones with that name among the modes."""
+    others = [found.eigenvalues[i] for i in modes if i != k and found.names[i] == found.names[k]]
+    if not others:
+        return found.names[k]
+    return f"{found.names[k]}\n{'faster' if abs(found.eigenvalues[k]) > max(map(abs, others)) else 'slower'}"
 
 
 def _polar(phasor: complex) -> list[str]:
     phase = math.degrees(cmath.phase(phasor))
     return [
-        f"{abs(phasor):.6f}",
+        decimals(abs(phasor), 6),
         f"{0.0 if abs(phase) < 1e-9 else phase:z.3f}".replace("-180.000", "180.000"),
     ]
 
@@ -48,19 +60,17 @@ def told_motion(machine: Chosen, design: Any, found: Motion, push: Mapping[str, 
 
     pushed = ", ".join(f"{name} = {value:.6g} {_unit(name)}" for name, value in push.items())
     last = len(found.t) - 1
-    rows = []
-    for i in range(_ROWS):
-        k = round(i * last / (_ROWS - 1))
-        roll, steer = found.states[:2, k]
-        values = (roll, steer, found.yaw[k], found.x[k], found.y[k], found.y_front[k])
-        rows.append([f"{found.t[k]:.4g}", *(f"{value:z.6f}" for value in values)])
+    shown = [round(i * last / (_ROWS - 1)) for i in range(_ROWS)]
+    values = (*found.states[:2], found.yaw, found.x, found.y, found.y_front)
+    columns = [aligned(each[shown].tolist(), _LETTERS) for each in values]
+    rows = [[f"{found.t[k]:.4g}", *row] for k, *row in zip(shown, *columns, strict=True)]
     names = ["t\n[s]", "roll\n[rad]", "steer\n[rad]", "yaw\n[rad]"]
     names += ["along\n[m]", "rear wheel\n[m]", "front wheel\n[m]"]
     note = "all positive to the right; the wheels' contacts are so far to the right of the line ridden before"
     if (left := leaves(found)) is not None:
         note += f"\nthe model is linear: beyond about {LARGE:g} rad these angles are not those of a machine"
         note += f"; it leaves it at {left:.3g} s"
-    return _whole(machine, design, model, [f"at {found.V:.6g} m/s after {pushed}", table(names, rows), note])
+    return _whole(machine, design, model, f"at {found.V:.6g} m/s after {pushed}", table(names, rows), note)
 
 
 def _unit(name: str) -> str:
@@ -80,10 +90,10 @@ def told_against(
     words += f"\nstable: {ends} {unit}" if ends else "\nstable: nowhere between these"
     changed = f" ({machine.changes})" if machine.set else ""
     table_ = eigenvalue_table(f"{found.name}\n[{unit}]", rows)
-    return prose(f"{heading(machine.bicycle, model, [found.name, *beside])}{changed}\n{words}\n\n{table_}")
+    return prose(f"{heading(machine.bicycle, model, [found.name, *beside])}{changed}\n{words}\n\n") + table_
 
 
-def _whole(machine: Chosen, design: Any, model: Model, parts: list[str]) -> str:
+def _whole(machine: Chosen, design: Any, model: Model, words: str, rows: str, note: str) -> str:
     changed = f" ({machine.changes})" if machine.set else ""
-    head = [heading(machine.bicycle, model) + changed, table(DESIGN_HEAD, [design_columns(design)])]
-    return prose("\n\n".join([*head, *parts]))
+    head = prose(heading(machine.bicycle, model) + changed)
+    return "\n\n".join([head, table(DESIGN_HEAD, [design_columns(design)]), prose(words), rows, prose(note)])

@@ -9,6 +9,7 @@ from bikestab_cli.output import (
     DESIGN_HEAD,
     WIDTH,
     certain,
+    decimals,
     design_columns,
     heading,
     heading_of_all,
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from bikestab.records import Design, Interval, Verdict
 
 COLUMNS = ("weave", "capsize", "castering")
+_ROUNDING = 1e-13  # of an eigenvalue's size: a real part that is no more is zero
 _HEAD = ["V\n[m/s]", *(f"{name}\n[1/s]" for name in (*COLUMNS, "others"))]
 
 
@@ -40,14 +42,13 @@ class Followed(NamedTuple):
 def told(found: Followed, model: Model) -> str:
     """The design, its stable speeds, where eigenvalues meet, and the table of eigenvalues."""
     changed = f" ({found.machine.changes})" if found.machine.set else ""
-    lines = [
-        heading(found.machine.bicycle, model) + changed + "\n",
-        table(DESIGN_HEAD, [design_columns(found.design)]) + "\n",
-        *_stable(found),
-        "".join(line + "\n" for line in _meetings(found.modes, max(found.modes.V))),
-        _narrow(lambda digits: _table([], _rows(found.modes, digits), 4)),
+    parts = [
+        prose(heading(found.machine.bicycle, model) + changed),
+        table(DESIGN_HEAD, [design_columns(found.design)]),
+        prose("\n".join([*_stable(found), *_meetings(found.modes, max(found.modes.V))])),
+        narrowed(lambda digits: _table([], _rows(found.modes, digits), 4)),
     ]
-    return prose("\n".join(lines))
+    return "\n\n".join(parts)
 
 
 def told_all(found: Sequence[Followed], model: Model, left_out: Sequence[str]) -> str:
@@ -63,16 +64,8 @@ def told_all(found: Sequence[Followed], model: Model, left_out: Sequence[str]) -
         return _table(["machine"], rows, 0)
 
     designs_table = table(["machine", *DESIGN_HEAD], designs, fold=0)
-    return prose(
-        "\n\n".join(
-            [
-                heading_of_all([each.machine.bicycle for each in found], model, found[0].machine.set),
-                designs_table,
-                "\n".join(notes),
-                _narrow(eigenvalues),
-            ]
-        )
-    )
+    head = heading_of_all([each.machine.bicycle for each in found], model, found[0].machine.set)
+    return "\n\n".join([prose(head), designs_table, prose("\n".join(notes)), narrowed(eigenvalues)])
 
 
 def _stable(found: Followed) -> list[str]:
@@ -80,7 +73,7 @@ def _stable(found: Followed) -> list[str]:
     return [*([*map(interval_words, found.intervals)] or ["no stable speed"]), *marginal]
 
 
-def _narrow(text: Callable[[int], str]) -> str:
+def narrowed(text: Callable[[int], str]) -> str:
     """The text with as many digits, of six, as 80 columns have room for."""
     for digits in range(6, 0, -1):
         shown = text(digits)
@@ -127,7 +120,7 @@ def eigenvalue_table(first: str, rows: Sequence[tuple[str, Modes]]) -> str:
     def shown(digits: int) -> str:
         return _table([], [[cell, *_rows(modes, digits)[0][1:]] for cell, modes in rows], 4, first)
 
-    return _narrow(shown)
+    return narrowed(shown)
 
 
 def _table(first: list[str], rows: list[list[str]], fold: int, axis: str = _HEAD[0]) -> str:
@@ -155,8 +148,11 @@ def _row(s: Any, names: Any, digits: int) -> list[str]:
 
 def _motion(s: Any, digits: int) -> str:
     """The eigenvalues of one name: pairs as one, real ones each."""
-    return ", ".join(
-        f"{x.real:z.{digits}f} ± {x.imag:z.{digits}f}i" if x.imag else f"{x.real:z.{digits}f}"
-        for x in s
-        if x.imag >= 0
-    )
+    return ", ".join(eigenvalue(x, digits) for x in s.tolist() if x.imag >= 0)
+
+
+def eigenvalue(s: complex, digits: int) -> str:
+    """An eigenvalue with so many digits, of a pair both."""
+    if not s.imag:
+        return decimals(s.real, digits)
+    return f"{decimals(s.real, digits, _ROUNDING * abs(s))} ± {decimals(s.imag, digits)}i"

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
 
 F = TypeVar("F", bound=Callable[..., Any])
+_OF_PARAMETERS = ("--over", "--free")  # options that name one, of which a mistake is told
 DEFAULT_BICYCLE = "dikarev1981"
 
 
@@ -172,7 +173,10 @@ def check_files(*names: str | None) -> None:
 
 @contextmanager
 def told_as_options(**others: str) -> Iterator[None]:
-    """Tell of the library's mistakes in its arguments as of the options of these names, or of ``others``."""
+    """Tell of the library's mistakes in its arguments as of the options of these names, or of ``others``.
+
+    ``x`` and ``y`` are parameters of a family, which names them itself.
+    """
     try:
         yield
     except InputError as error:
@@ -184,11 +188,13 @@ def told_as_options(**others: str) -> Iterator[None]:
             options = " and ".join(each.split()[0] for each in typed)
             problem = f"{error.problem}: give {options}, for example {' '.join(typed)}"
             raise click.UsageError(problem, click.get_current_context()) from None
-        listed = hint.startswith("known: ")  # parameters, and no arguments
-        for argument, its_option in {} if listed else others.items():
-            hint = re.sub(rf"(?<![\w-]){re.escape(argument)}\b", its_option, hint)
-        problem, option = f"{error.problem}; {hint}".strip("; "), f"--{name.replace('_', '-')}"
-        raise click.BadParameter(problem, param_hint=others.get(name, option)) from None
+        option, problem = others.get(name, f"--{name.replace('_', '-')}"), error.problem
+        if option in _OF_PARAMETERS:
+            problem = problem if name in ("x", "y") or re.search(rf"\b{name}\b", problem) else f"{name}: {problem}"
+        elif not hint.startswith("known: "):  # parameters, and no arguments
+            for argument, its_option in others.items():
+                hint = re.sub(rf"(?<![\w-]){re.escape(argument)}\b", its_option, hint)
+        raise click.BadParameter(f"{problem}; {hint}".strip("; "), param_hint=option) from None
 
 
 @contextmanager

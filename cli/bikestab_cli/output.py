@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bikestab.records import Design
 
 _LEAST = 8  # letters of a column of words
+_LONG = 1e7  # numbers from there on are scientific
 WIDTH = 80  # columns of a terminal, and of a column in print
 DESIGN_HEAD = ["lam [rad]\nhead [°]", "sigma\ntrail [m]", "\noffset [m]"]
 
@@ -132,6 +133,34 @@ def within(value: float, letters: int) -> str:
     """A number in at most so many letters, of six digits where there is room for them."""
     texts = (f"{value:.{digits}g}" for digits in range(6, 0, -1))
     return next((text for text in texts if len(text) <= letters), f"{value:.1g}")
+
+
+def decimals(value: float, digits: int, least: float = 0.0) -> str:
+    """A number with so many digits behind the point, or scientific where that is long or tells nothing of it.
+
+    Below ``least`` it is zero.
+    """
+    size = abs(value)
+    if size >= _LONG:
+        return f"{value:.{digits}e}"
+    return f"{value:.2e}" if least < size < 10.0 ** (1 - digits) else f"{value:z.{digits}f}"
+
+
+def aligned(values: Sequence[float], letters: int) -> list[str]:
+    """Numbers in at most so many letters: with one number of digits behind the point, up to six, if they can.
+
+    They cannot where the largest of them would have fewer than four digits; then they are scientific.
+    """
+    if not any(values) or max(map(abs, values)) >= 1e-3:
+        for digits in range(6, 2, -1):
+            texts = [f"{value:z.{digits}f}" for value in values]
+            if max(map(len, texts)) <= letters:
+                return texts
+    powers = [[f"{value:.{digits}e}" for digits in (2, 1, 0)] for value in values]
+    return [
+        next(text for text in texts if len(text) <= letters) if value else "0"
+        for value, texts in zip(values, powers, strict=True)
+    ]
 
 
 def design_columns(design: Design) -> list[str]:

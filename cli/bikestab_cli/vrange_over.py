@@ -8,13 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from bikestab_cli.options import told_as_options
 from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.parameters import MOST_VALUES
 from bikestab_cli.several import Chosen, record_of, told_apart
 from bikestab_cli.spreads import spreads, with_spreads
 from bikestab_cli.vrange_words import told_over
-
-from bikestab.errors import InputError
 
 if TYPE_CHECKING:
     from bikestab.design.spread import Spread
@@ -54,11 +53,8 @@ def show_over(
 def _points(machine: Chosen, over: dict[str, list[float]], model: Model) -> Points:
     from bikestab.region.answers import stable_speeds_over
 
-    try:
+    with told_as_options(**dict.fromkeys((*over, "lam", "sigma"), "--over")):
         return stable_speeds_over(machine.bicycle, over, model=model)
-    except InputError as error:
-        problem = ": ".join([str(error.key[0]), error.problem]) if error.key else error.problem
-        raise click.BadParameter(f"{problem}; {error.hint}", param_hint="--over") from None
 
 
 def _spreads(
