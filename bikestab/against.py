@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
+from bikestab.errors import InputError
 from bikestab.model import ExactTable, Floats, Model, characteristic_table, exact_table
 from bikestab.modes import Modes, follow
 from bikestab.records import Design, design_record
@@ -33,7 +34,7 @@ class Curve(NamedTuple):
 
 
 class Against(NamedTuple):
-    """The designs of one machine in which the parameter ``name`` has ``values``: their tables and modes.
+    """The designs of one machine in which the parameter ``name`` has ``values``: their tables and modes at V.
 
     ``tables`` and ``modes`` have one entry for each value, and each of ``modes`` is of one speed. ``stable``
     has the ranges of values, from the least to the greatest, in which motion at that speed is stable: their
@@ -42,6 +43,7 @@ class Against(NamedTuple):
     """
 
     name: str
+    V: float
     values: Floats
     designs: list[Design]
     tables: list[ExactTable]
@@ -60,6 +62,8 @@ def modes_against(
     values that no machine can have; and as ``bikestab.modes``.
     """
     fixed = dict(others or {})
+    if name in fixed:
+        raise InputError("it varies, and is fixed too", key=(name,), hint="give one of them")
     check_names(bicycle, {each: each for each in (name, *fixed)})
     for value in (min(values), max(values)):
         check_values(bicycle, {**fixed, name: value})
@@ -93,7 +97,7 @@ def modes_against(
     modes = [follow(each, V) for each in tables]
     curves = curves_between(x, V, modes, quick, lambda x: follow(tables_at(np.array([x]))[0], V))
     ranges = stable_ranges(signs, x)
-    return Against(name, x, designs, tables, modes, ranges, curves)  # type: ignore[arg-type]  # a Design
+    return Against(name, V, x, designs, tables, modes, ranges, curves)  # type: ignore[arg-type]  # a Design
 
 
 def curves_between(

@@ -114,3 +114,14 @@ def test_damping_and_the_start():
 def test_mistakes(V, push, t, words):
     with pytest.raises(InputError, match=words):
         motion(bs.Bicycle.preset("meijaard2007"), V, push, t)
+
+
+@pytest.mark.parametrize("name", ["meijaard2007", "kooijman2011", "sharp1971"])
+@pytest.mark.parametrize("V", [0.0, 2.0, 5.0, 20.0])
+def test_a_motion_starts_where_it_was_pushed(name, V):
+    bike = bs.Bicycle.preset(name)
+    push = {"roll": 1e-9, "steer_rate": 0.1 / 3}
+    found = motion(bike, V, push, [0.0, 0.1, 0.0])
+    for k in (0, 2):
+        assert found.states[:, k].tolist() == [1e-9, 0.0, 0.0, 0.1 / 3]
+        assert [str(x[k]) for x in (found.yaw, found.x, found.y, found.y_front)] == ["0.0"] * 4

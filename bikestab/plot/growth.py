@@ -56,16 +56,17 @@ def growth_axes(ax: Axes, machines: Sequence[Machine], start: float, stop: float
 
 
 @own_settings()
-def draw_growth_against(
-    machines: Sequence[tuple[str, Against]], V: float, label: str, name: str = ""
-) -> Figure:
-    """Machines by name, with growth rates at one speed [m/s] against a parameter, of which the axis tells."""
+def draw_growth_against(machines: Sequence[tuple[str, Against]], label: str, name: str = "") -> Figure:
+    """Machines by name, with growth rates at a speed each against a parameter, of which the axis tells."""
     figure = Figure(figsize=(6.2, 4.4), layout="constrained")
     ax = figure.add_subplot()
     values = machines[0][1].values
-    draw_rates(ax, [_against(*each) for each in machines], float(values.min()), float(values.max()))
+    speeds = {found.V for _, found in machines}
+    at = f" at {machines[0][1].V:.6g} m/s" if len(speeds) == 1 else ""
+    named = [(own if at else f"{own} at {found.V:.4g} m/s", found) for own, found in machines]
+    draw_rates(ax, [_against(*each) for each in named], float(values.min()), float(values.max()))
     ax.set_xlabel(label, parse_math=False)
-    what = f"largest real part of the eigenvalues at {V:g} m/s; {_THICK}"
+    what = f"largest real part of the eigenvalues{at}; {_THICK}"
     set_title(ax, f"{short(name)}: {what}" if name else f"{what[0].upper()}{what[1:]}")
     return figure
 

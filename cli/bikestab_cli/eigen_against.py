@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
 from bikestab_cli.chosen import Given
 from bikestab_cli.eigen_answer import Shown
-from bikestab_cli.eigen_view_options import View, told_as_views
+from bikestab_cli.eigen_view_options import told_as_views
 from bikestab_cli.eigen_view_words import told_against
 from bikestab_cli.several import Chosen
 
@@ -15,29 +14,29 @@ if TYPE_CHECKING:
     from bikestab.model import Model
 
 
-def against(machine: Chosen, given: Given, view: View, model: Model) -> list[Shown]:
+def against(
+    machine: Chosen, given: Given, over: dict[str, list[float]], V: float, model: Model
+) -> list[Shown]:
     """A machine against the parameter with the most values, once or for each value of the other."""
-    if view.at is None:
-        raise click.UsageError("--over needs a speed: give --at", click.get_current_context())
-    along = max(view.over, key=lambda name: len(view.over[name]))
-    beside = [{name: value} for name in view.over if name != along for value in view.over[name]] or [{}]
-    return [_against(machine, given, along, each, view, model) for each in beside]
+    along = max(over, key=lambda name: len(over[name]))
+    beside = [{name: value} for name in over if name != along for value in over[name]] or [{}]
+    with told_as_views(**dict.fromkeys(over, "--over")):
+        return [_against(machine, given, along, over[along], each, V, model) for each in beside]
 
 
 def _against(
-    machine: Chosen, given: Given, name: str, beside: dict[str, float], view: View, model: Model
-) -> Shown:
-    """The modes where one parameter varies, and others are ``beside`` it."""
+    machine: Chosen, given: Given, name: str, values: list[float], beside: dict[str, float], V: float,
+    model: Model,
+) -> Shown:  # fmt: skip
+    """The modes where one parameter has some values, and others are ``beside`` it."""
     from bikestab.against import modes_against
     from bikestab.export.motions import against_blocks, against_columns
     from bikestab.records import interval_records, modes_record, verdict_record
     from bikestab.speeds import intervals_of
     from bikestab.variants import parameter_of
 
-    V = float(view.at or 0)
     others = {key: value[0] if isinstance(value, list) else value for key, value in given.items()}
-    with told_as_views(**dict.fromkeys(view.over, "--over")):
-        found = modes_against(machine.bicycle, name, view.over[name], V, {**others, **beside}, model=model)
+    found = modes_against(machine.bicycle, name, values, V, {**others, **beside}, model=model)
     results = []
     for value, design, table, modes in zip(
         found.values.tolist(), found.designs, found.tables, found.modes, strict=True

@@ -16,6 +16,7 @@ from bikestab_cli.eigen_view_words import told_motion, told_shapes
 from bikestab_cli.several import Chosen, told_apart
 
 if TYPE_CHECKING:
+    from bikestab.bicycle import Bicycle
     from bikestab.model import Model
 
 _TIMES = 501  # of a motion
@@ -66,19 +67,20 @@ def _drawn(found: Sequence[Shown], view: View) -> Any:
     from bikestab.plot.growth import draw_growth_against
     from bikestab.variants import parameter_of
 
-    parameter, V = parameter_of(first.machine.bicycle, first.found.name), float(view.at or 0)
+    parameter = parameter_of(first.machine.bicycle, first.found.name)
     if others:
-        return draw_growth_against(each, V, label_of(parameter), common)
-    return draw_against(first.machine.words, first.found, V, parameter)
+        return draw_growth_against(each, label_of(parameter), common)
+    return draw_against(first.machine.words, first.found, first.found.V, parameter)
 
 
 def _shown(machine: Chosen, given: Given, view: View, model: Model) -> list[Shown]:
     """What is asked for, of one machine: once, or for each value of the second of two parameters."""
-    if view.kind == "over":
-        return against(machine, given, view, model)
     bicycle = machine.bicycle
+    if view.kind == "over":
+        V = _speed_over(bicycle, given, model) if view.at is None else view.at
+        return against(machine, given, view.over, V, model)
     lam, sigma = design_chosen(bicycle, given)
-    V = _speed(bicycle, lam, sigma, view, model)
+    V = _middle(bicycle, lam, sigma, model) if view.at is None else view.at
     from bikestab.records import design_record
 
     design = design_record(lam, sigma, bicycle)
@@ -123,12 +125,22 @@ def _motion(machine: Chosen, design: Any, V: float, view: View, model: Model) ->
     return Shown(machine, drawn, [record], text, MOTION, lambda: motion_blocks(found))
 
 
-def _speed(bicycle: Any, lam: float, sigma: float, view: View, model: Model) -> float:
-    """The speed that is asked for, or the middle of the widest stable interval that has two ends."""
+def _speed_over(bicycle: Bicycle, given: Given, model: Model) -> float:
+    """The same of a machine before its parameter varies."""
+    try:
+        lam, sigma = design_chosen(bicycle, given)
+    except click.UsageError:
+        problem = (
+            f"{bicycle.name} has no design of its own to take the middle of its stable speeds: give --at"
+        )
+        raise click.UsageError(problem, click.get_current_context()) from None
+    return _middle(bicycle, lam, sigma, model)
+
+
+def _middle(bicycle: Bicycle, lam: float, sigma: float, model: Model) -> float:
+    """The middle of the widest stable interval that has two ends."""
     from bikestab.stability import stable_intervals
 
-    if view.at is not None:
-        return view.at
     found = stable_intervals(bicycle, lam, sigma, model=model)
     bounded = [(b - a, a, b) for a, b in zip(found.V1, found.V2, strict=True) if b - a < float("inf")]
     if not bounded:

@@ -190,7 +190,7 @@ def told_as_options(**others: str) -> Iterator[None]:
             raise click.UsageError(problem, click.get_current_context()) from None
         option, problem = others.get(name, f"--{name.replace('_', '-')}"), error.problem
         if option in _OF_PARAMETERS:
-            problem = problem if name in ("x", "y") or re.search(rf"\b{name}\b", problem) else f"{name}: {problem}"
+            problem = problem if name in ("x", "y") else f"{name}: {problem}"
         elif not hint.startswith("known: "):  # parameters, and no arguments
             for argument, its_option in others.items():
                 hint = re.sub(rf"(?<![\w-]){re.escape(argument)}\b", its_option, hint)

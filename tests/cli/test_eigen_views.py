@@ -208,10 +208,18 @@ def test_arrowheads_cover_no_dot_and_no_number(name):
             [*("--over", "mB=1:2:2", "--over", "mH=1:2:2", "--over", "mF=1:2:2"), "--at", "5"],
             "for one or two",
         ),
-        (["--over", "delta=0:5:6"], "--over needs a speed: give --at"),
+        (
+            ["--over", "delta=0:5:6", "--lam", "-5deg"],
+            "has no stable interval with two ends to take the middle",
+        ),
+        (["--over", "lam=0.1:0.2:3", "--lam", "0.2"], "--over: lam: it varies, and is fixed too"),
+        (
+            ["--over", "delta=0:5:6", "--at", "4", "--locus", "-o", "x.png"],
+            "picture of its own, and so is that of --over: give one of them",
+        ),
         (["--over", "delt=0:5:6", "--at", "5"], "has no parameter 'delt'; did you mean 'delta'?"),
         (["--over", "delta=-1:5:6", "--at", "5"], "-1 is not non-negative"),
-        (["--locus"], "--locus: it is a picture of its own: give -o FILE"),
+        (["--locus"], "--locus: it is a picture: give -o FILE"),
         (["--shapes", "--at", "-1"], "--at: -1"),
         (["--shapes", "--bicycle", "kooijman2011"], "give --at"),
     ],
@@ -303,3 +311,85 @@ def test_curves_are_drawn_in_one_piece_however_many_values_there_are():
     (ax,) = draw_against("meijaard2007", found, 4.0, parameter_of(BIKE, "delta")).axes
     spans = [line.get_xdata() for line in ax.lines if len(line.get_xdata()) > 2]
     assert [(x[0], x[-1]) for x in spans] == [(0.0, 5.0)] * 4  # weave twice, capsize and castering
+
+
+@pytest.mark.parametrize(
+    "args",
+    [
+        ["--push", "roll_rate=0.5", "--at", "1", "--until", "100"],
+        ["--push", "roll_rate=0.5", "--at", "0"],
+        ["--push", "steer=90deg", "--at", "3"],
+        ["--push", "roll=1e-9"],
+        ["--push", "roll=1e-300", "--at", "8"],
+        ["--shapes", "--at", "1e6"],
+        ["--V", "0:1e6:3"],
+        ["--over", "delta=0:1e5:3", "--at", "1e5"],
+        ["--over", "mB=80:90:3", "--over", "delta=0:5:2", "--at", "1e6"],
+    ],
+)
+def test_numbers_of_any_size_stand_in_their_columns(bikestab, args):
+    """And none is zero but what is."""
+    code, out, err = bikestab("eigen", *BENCHMARK, *args)
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert max(map(len, lines)) <= 80
+    heads = [
+        i - 1 for i, line in enumerate(lines) if line.split()[:1] in (["[s]"], ["[m/s]"], ["[kg"], ["[kg]"])
+    ]
+    for i in heads:
+        assert lines[i].split()[0] in ("t", "V", "delta", "mB")
+        assert len(lines[i + 4]) == len(lines[i])
+    if "--push" in args:
+        last = lines[heads[0] + 12].split()
+        assert len(last) == 7
+        assert lines[heads[0]].split()[-4:] == ["rear", "wheel", "front", "wheel"]
+        found = motion(BIKE, *(pushed(bikestab, args)))
+        values = [found.states[0, -1], found.states[1, -1], found.yaw[-1], found.y[-1], found.y_front[-1]]
+        told = [float(text) for text in (*last[1:4], *last[5:])]
+        assert told == pytest.approx(values, rel=5e-2, abs=2e-4 if abs(values[0]) > 1e-3 else 0)
+
+
+def pushed(bikestab, args):
+    (record,) = json.loads(bikestab("eigen", *BENCHMARK, *args, "--json")[1])["results"]
+    return record["at"], record["push"], record["motion"]["t"]
+
+
+def test_two_real_modes_of_one_name_are_told_apart(bikestab):
+    out = bikestab("eigen", "--bicycle", "kooijman2011", "--shapes", "--at", "0")[1].splitlines()
+    first = next(i for i, line in enumerate(out) if line.startswith("real pair"))
+    assert [line.split()[0] for line in out[first : first + 4]] == ["real", "faster", "real", "slower"]
+    assert float(out[first].split()[2]) > float(out[first + 2].split()[2])
+
+
+def test_over_a_parameter_at_the_middle_of_the_stable_speeds(bikestab):
+    """The issue's own form: each machine's before the parameter varies."""
+    both = ("--bicycle", "meijaard2007", "--bicycle", "sharp1971")
+    found = [bs.stable_intervals(bs.Bicycle.preset(name)) for name in both[1::2]]
+    middle = [(each.V1 + each.V2) / 2 for each in found]
+    out = json.loads(bikestab("eigen", *both, "--over", "delta=0:5:3", "--json", "-o", "a.svg")[1])
+    assert [each["at"] for each in out["ranges"]] == pytest.approx([float(V[0]) for V in middle])
+    bare = bikestab("eigen", "--over", "delta=0:5:3")
+    assert bare[:2] == (2, "")
+    assert "dikarev1981 has no design of its own to take the middle" in bare[2]
+    text = Path("a.svg").read_text(encoding="utf-8")
+    assert "at 5.158 m/s" in text
+    assert "at 8.686 m/s" in text
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (["eigen", "--at", "5", "--over", "IBxz=0:20:5"], "allowed: |IBxz| <= 5.07543"),
+        (["eigen", "--at", "5", "--over", "rF=0:0.5:5"], "--over: rF: with rF = 0: R2 = 0 (a skate) cannot spin"),
+        (["vrange", "--over", "rF=0:0.5:5"], "--over: rF: with rF = 0: R2 = 0 (a skate) cannot spin"),
+        (["design", "--over", "rF=0:0.5", "--over", "mB=60:90"], "--over: rF: with rF = 0, mB = 60: R2 = 0"),
+        (["design", "--free", "IBxz=0:20", "--free", "mB=60:90"], "--free: IBxz: |20| is more"),
+        (["eigen", "--at", "5", "--over", "w=0:2:5"], "--over: w: 0 is not positive"),
+        (["vrange", "--over", "w=1e-5:2:5"], "--over: w: with w = 1e-05: a trail of 8000 wheelbases"),
+    ],
+)
+def test_a_value_that_cannot_be_is_told_by_the_name_that_was_typed(bikestab, args, words):
+    code, out, err = bikestab(*args, *BENCHMARK)
+    assert (code, out) == (2, "")
+    assert words in " ".join(err.split())
+    assert "Warning" not in err
