@@ -44,7 +44,7 @@ def colour_growth_rate(figure: Figure, ax: Axes, x: Floats, y: Floats, values: F
     )
     ax.set_facecolor("0.6")  # where an eigenvalue is infinite
     bar = figure.colorbar(image, ax=ax)
-    bar.set_label("growth rate [s⁻¹]")
+    bar.set_label(f"growth rate [s⁻¹], logarithmic beyond ±{_LINEAR:g}", fontsize=9)
     ticks = sorted({0.0, *(sign * tick for tick in (*_TICKS, _END) for sign in (-1, 1))})
     bar.ax.yaxis.set_major_locator(FixedLocator(ticks))
     bar.ax.yaxis.set_minor_locator(NullLocator())

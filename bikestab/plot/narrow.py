@@ -8,6 +8,7 @@ from typing import Any, cast
 import numpy as np
 from contourpy import FillType, contour_generator
 from matplotlib.axes import Axes
+from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from bikestab.model import Floats
@@ -32,21 +33,31 @@ def point_to_narrow(
     size = _inches(ax)
     outlines = _outlines(X, Y, inside)
     low, scale = np.array([X[0], Y[0]]), np.array([np.ptp(X), np.ptp(Y)])
+    samples = np.argwhere(inside.T) / [len(X) - 1, len(Y) - 1]
     narrow = []
     for outline in ((each - low) / scale for each in outlines):
         x, y = (outline * size).T
         area = abs(float(np.dot(x[:-1], np.diff(y)) - np.dot(y[:-1], np.diff(x)))) / 2
         if area < _WIDTH * float(np.hypot(np.diff(x), np.diff(y)).sum()) / 2:
-            middle = np.argmin(np.hypot(*(outline - outline.mean(axis=0)).T))
-            narrow.append((area, outline[middle]))
+            narrow.append((area, _deepest(outline, samples, size)))
     drawn = np.concatenate([*((np.column_stack(each) - low) / scale for each in curves), np.empty((0, 2))])
     if not outlines and curves:
         narrow.append((0.0, drawn[len(drawn) // 2]))
-    busy = np.concatenate([drawn, np.argwhere(inside.T) / [len(X) - 1, len(Y) - 1]])
+    busy = np.concatenate([drawn, samples])
     for _, place in sorted(narrow, key=lambda each: -each[0])[:_MOST]:
         word = min((place + side / size for side in _SIDES), key=lambda at: _covered(at, busy, size))
         busy = np.vstack([busy, *(word + corner / size for corner in _CORNERS for _ in range(1000))])
         _point(ax, place, word)
+
+
+def _deepest(outline: Floats, samples: Floats, size: Floats) -> Floats:
+    """The sample within an outline that is furthest from it, of equal ones the nearest to their middle."""
+    own = samples[Path(outline).contains_points(samples)]
+    if not len(own):
+        return np.asarray(outline.mean(axis=0))
+    apart = [np.hypot(*((outline - each) * size).T).min() for each in own]
+    far = own[np.asarray(apart) >= 0.999 * np.max(apart)]
+    return np.asarray(far[np.argmin(np.hypot(*((far - own.mean(axis=0)) * size).T))])
 
 
 def _outlines(X: Floats, Y: Floats, inside: NDArray[np.bool_]) -> list[Floats]:
@@ -74,5 +85,5 @@ def _point(ax: Axes, place: Floats, word: Floats) -> None:
     ax.annotate(
         "stable", tuple(place), tuple(word), xycoords="axes fraction", textcoords="axes fraction",
         ha="center", va="center", path_effects=HALO, zorder=6,
-        arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1, "shrinkA": 1, "shrinkB": 1},
+        arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1, "shrinkA": 1, "shrinkB": 0},
     )  # fmt: skip

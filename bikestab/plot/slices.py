@@ -29,6 +29,7 @@ from bikestab.volume import Subject, Volume, check_ranges
 PlaneField = Literal["growth_rate", "probability", "certified"]
 # per axis, for finding the curves, whose points are then moved onto the exact zero
 _SAMPLES = 201
+_SMOOTH = 150  # steps along an axis, at least, of the growth rate
 
 
 @own_settings()
@@ -85,8 +86,9 @@ def _coloured(
         probability = _probability(subject, section.fixed, section.value)
         bar = colour_probability(figure, ax, x, y, probability, subject.samples)
         return bar, _edges(ax, section, x, y, spread=True) + shares(probability)
-    growth = growth_rate_of(*section.table_and_speed(x[np.newaxis, :], y[:, np.newaxis]))
-    bar = colour_growth_rate(figure, ax, x, y, growth)
+    fine = _refined(x), _refined(y)
+    growth = growth_rate_of(*section.table_and_speed(fine[0][np.newaxis, :], fine[1][:, np.newaxis]))
+    bar = colour_growth_rate(figure, ax, *fine, growth)
     return bar, _stable_region(ax, section, x, y)
 
 
@@ -117,6 +119,12 @@ def _stable_region(ax: Axes, section: Section, x: Floats, y: Floats) -> list[Any
             bbox={"facecolor": "white", "alpha": 0.85, "edgecolor": "none"},
         )  # fmt: skip
     return handles
+
+
+def _refined(axis: Floats) -> Floats:
+    """The values of an axis, and as many between them that steps of the colour are not seen."""
+    parts = -(-_SMOOTH // max(len(axis) - 1, 1))
+    return np.interp(np.arange((len(axis) - 1) * parts + 1) / parts, np.arange(len(axis)), axis)
 
 
 def _samples(x: Floats, y: Floats) -> tuple[Floats, Floats]:

@@ -116,6 +116,13 @@ def colours(figure):
     return mesh.get_array()
 
 
+def on_grid(values, shape):
+    """Of colours those at the grid's points: between them there are others, so that no steps are seen."""
+    rows, columns = ((n - 1) // (m - 1) for n, m in zip(values.shape, shape, strict=True))
+    assert min(values.shape) > 140
+    return values[::rows, ::columns]
+
+
 def test_on_the_grid_the_colours_are_the_volumes(volume, draw):
     stored = volume.file["growth_rate"][()]
     for plane, values in (
@@ -124,17 +131,17 @@ def test_on_the_grid_the_colours_are_the_volumes(volume, draw):
         (("V", 5), stored[:, :, 5]),
     ):
         # computed anew, so that pictures need not wait for the volume, which has single precision
-        np.testing.assert_allclose(colours(draw(*plane)), values.T, rtol=1.2e-7)
+        np.testing.assert_allclose(on_grid(colours(draw(*plane)), values.T.shape), values.T, rtol=1.2e-7)
 
 
 def test_off_the_grid_the_colours_are_computed(volume, draw):
     lam, sigma, V = (volume.axis(name) for name in ("lam", "sigma", "V"))
     table = characteristic_table(BICYCLE, 0.123, sigma)
     expected = growth_rate_of(table[..., np.newaxis], V).T
-    np.testing.assert_allclose(colours(draw("lam", 0.123)), expected, rtol=1e-12)
+    np.testing.assert_allclose(on_grid(colours(draw("lam", 0.123)), expected.shape), expected, rtol=1e-12)
     table = characteristic_table(BICYCLE, lam[:, np.newaxis], sigma)
     expected = growth_rate_of(table, 5.5).T
-    np.testing.assert_allclose(colours(draw("V", 5.5)), expected, rtol=1e-12)
+    np.testing.assert_allclose(on_grid(colours(draw("V", 5.5)), expected.shape), expected, rtol=1e-12)
 
 
 def test_a_volume_without_growth_rate(tmp_path, draw):
@@ -282,3 +289,13 @@ def test_own_design(tmp_path, fixed, value, x, y):
     for mark in marks:
         assert mark.get_xdata()[0] == pytest.approx(x)
         assert y is None or mark.get_ydata()[0] == pytest.approx(y)
+
+
+def test_the_arrow_of_a_narrow_region_ends_within_it(draw):
+    for plane in (("lam", 0.05), ("sigma", 0.15)):
+        ax = draw(*plane).axes[0]
+        (word,) = (text for text in ax.texts if text.get_text() == "stable")
+        x, V = ax.transData.inverted().transform(ax.transAxes.transform(word.xy))
+        lam, sigma = (0.05, x) if plane[0] == "lam" else (x, 0.15)
+        found = intervals_of(characteristic_table(BICYCLE, lam, sigma))
+        assert any(a + 0.05 < V < b - 0.05 for a, b in zip(found.V1, found.V2, strict=True))
