@@ -7,12 +7,16 @@ from itertools import product
 from typing import Any
 
 from bikestab.aside import meanwhile
+from bikestab.bicycle import PAPER
 from bikestab.errors import InputError
 from bikestab.family import Family
 from bikestab.fields import AXES
+from bikestab.gains import GAINS
 from bikestab.geometry import GIVEN
+from bikestab.notation import MEIJAARD
 from bikestab.report.machines import Kept, machine_record
 from bikestab.report.surfaces import surfaces
+from bikestab.rider import RIDER
 from bikestab.volume import Volume, check_ranges
 
 Box = dict[str, list[float]]  # ends of λ [rad], σ and V [m/s]
@@ -66,7 +70,7 @@ def _volume(volume: Volume) -> dict[str, Any]:
         "model": volume.model,
         "box": box,
         "sweep": [
-            {"name": name, "unit": _unit(volume, name), "values": values.tolist()}
+            {"name": name, **_described(name), "values": values.tolist()}
             for name, values in volume.swept.items()
         ],
         "warnings": [line for line in volume.text("warnings").split("\n") if line],
@@ -92,6 +96,7 @@ def _machine(family: Family, kept: Kept, box: Box) -> dict[str, Any]:
     return machine_record(family.bicycle, family.model, kept) | surfaces(family, lam, sigma, V)
 
 
-def _unit(volume: Volume, name: str) -> str:
-    unit = volume.file[name].attrs.get("units", b"")
-    return unit.decode() if isinstance(unit, bytes) else str(unit)
+def _described(name: str) -> dict[str, str]:
+    """A parameter's meaning and unit."""
+    meaning, _, unit = {**PAPER, **MEIJAARD, **RIDER, **GAINS}.get(name, "").partition(" [")
+    return {"meaning": meaning, "unit": unit.rstrip("]")}

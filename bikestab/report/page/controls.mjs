@@ -18,7 +18,7 @@ export function sweepSliders({ sweep }, at, moved) {
   sweep.forEach((axis, i) => {
     const id = `sweep-${axis.name.replace(/[^A-Za-z0-9_-]/g, "-")}`;
     const slider = Object.assign(document.createElement("div"), { className: "slider sweep" });
-    const label = Object.assign(document.createElement("label"), { htmlFor: id, textContent: axis.name });
+    const label = Object.assign(document.createElement("label"), { htmlFor: id, textContent: `${axis.name}, ${axis.meaning}` });
     const range = Object.assign(document.createElement("input"), {
       type: "range", id, min: "0", max: String(axis.values.length - 1), step: "1", value: String(at[i]),
     });

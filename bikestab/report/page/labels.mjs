@@ -62,19 +62,24 @@ export function around(machine, { table, chosen }, volumes) {
   fill(element("changes"), [["as it is", inShort(intervals), ""], ...rows]);
   if (volumes.length < 2 && volumes[0].machines.length < 2) return;
   element("compare").hidden = false;
+  const alone = volumes.length < 2; // whose title and name every row would repeat
+  element("compare").querySelector("th")?.toggleAttribute("hidden", alone);
   fill(element("compare"), volumes.flatMap((volume) => volume.machines.map((one, i) => [
-    volume.title, [one.name, ...swept(volume, i)].join(", "), inWords(intervalsOf(tableOf(one, lam, sigma))),
+    ...(alone ? [] : [volume.title]), [...(alone ? [] : [one.name]), ...swept(volume, i)].join(", "),
+    inWords(intervalsOf(tableOf(one, lam, sigma))),
   ])));
 }
 
 /** Title, parameters, warnings and how to cite. @param {Volume} volume @param {Entry} machine
  * @param {{ version: string, cite: string }} by */
-export function about({ title, model, version, warnings, samples }, machine, by) {
+export function about(volume, machine, by) {
+  const { title, model, version, warnings, samples } = volume;
   const damping = machine.delta ? `damping ${machine.delta} kg m²/s` : "no damping";
   element("title").textContent = title;
   const gains = Object.entries(machine.parameters).filter(([name]) => name.startsWith("k_"));
   const feedback = gains.length ? `, steer torque by feedback: ${gains.map(([name, value]) => `${name} = ${value}`).join(", ")}` : "";
-  element("subtitle").textContent = `${machine.name}, ${model} model, ${damping}${feedback}`;
+  const other = swept(volume, volume.machines.indexOf(machine)).filter((text) => !/^(delta|k_\w+) =/.test(text));
+  element("subtitle").textContent = [machine.name, ...other, `${model} model`, `${damping}${feedback}`].join(", ");
   const drawn = samples ? [`Of the ${samples} machines drawn at random, which this volume has too, bikestab slice --probability shows more; this page is of the machine as it stands.`] : [];
   tell("warnings", "p", [...warnings.map((text) => `Warning: ${text}`), ...drawn]);
   const known = Object.entries(machine.parameters).filter(([, value]) => value !== null);

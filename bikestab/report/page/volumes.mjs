@@ -9,7 +9,7 @@ import { sigmaOfOffset } from "./geometry.mjs";
  *   curves: { name: string, lam: number[], sigma: number[] }[],
  *   mesh: { points: string, triangles: string, kind: string } }} Entry view: (λ, σ, V, 1) → the picture's shares
  */
-/** @typedef {{ name: string, unit: string, values: number[] }} Axis of a sweep */
+/** @typedef {{ name: string, meaning: string, unit: string, values: number[] }} Axis of a sweep */
 /** @typedef {{ lam: number[], sigma: number[], V: number[] }} Box */
 /**
  * @typedef {{ title: string, model: string, version: string, warnings: string[], box: Box, sweep: Axis[],
