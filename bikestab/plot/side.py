@@ -1,4 +1,4 @@
-"""A machine from its side, to scale, with the symbols of its parameters."""
+"""A machine from its side, to scale, with the symbols of its parameters in its own notation."""
 
 from __future__ import annotations
 
@@ -50,33 +50,32 @@ def draw_side(bicycle: Bicycle, lam: float, sigma: float) -> Figure:
 def side_axes(ax: Axes, bicycle: Bicycle, lam: float, sigma: float) -> list[Words]:
     """The same in axes of a picture; the words are yet to be written."""
     p = bicycle
-    top = _ABOVE * max(p.h1, p.h2, 2 * p.R1, 2 * p.R2)
+    of = p.bodies or {}
+    heights = [-of[z] for m, z in (("mB", "zB"), ("mH", "zH"), ("rider.m", "rider.z")) if of.get(m)]
+    top = _ABOVE * max(p.h1, p.h2, 2 * p.R1, 2 * p.R2, *heights)
     trail, c1 = sigma * p.c, sigma * p.c * np.cos(lam)
     foot = (p.c + trail, 0.0)
     up = np.array([-np.sin(lam), np.cos(lam)])
 
     ax.axhline(0, color="0.2", lw=1)
-    R = "R" if p.R1 == p.R2 else "R1"
-    words = _wheel(ax, (0, p.R1), p.R1, _REAR, R)
-    words += _wheel(ax, (p.c, p.R2), p.R2, _FRONT, "" if p.R1 == p.R2 else "R2")
+    words = _wheels(ax, p)
     head = foot + up * top / np.cos(lam)
     ax.plot(*zip(foot, head, strict=True), color=_AXIS, lw=1.4, ls=(0, (8, 2, 2, 2)))
     words.append(_tilt(ax, foot, lam, top))
-    masses = [
-        _mass(ax, (p.l1, p.h1), "M1", p.m1, _REAR, [(0, p.R1), _on_axis(foot, up, 0.75 * top)]),
-        _mass(ax, (p.l2, p.h2), "M2", p.m2, _FRONT, [(p.c, p.R2), _on_axis(foot, up, 0.75 * top)]),
-    ]
+    masses = _masses(ax, p, _on_axis(foot, up, 0.75 * top))
     step = 0.056 * (p.c + p.R1 + p.R2)
+    wheelbase, along = ("c", "c2 = σ c") if p.bodies is None else ("w", "c")
     words += [
-        _length(ax, (0, -step), (p.c, -step), f"c = {_m(p.c)}"),
-        _length(ax, (p.c, -2 * step), (p.c + trail, -2 * step), f"c2 = σ c = {_m(trail)}"),
-        _to_axis(ax, (p.c, 0.0), c1, lam, f"c1 = {_m(c1)}"),
+        _length(ax, (0, -step), (p.c, -step), f"{wheelbase} = {_m(p.c)}"),
+        _length(ax, (p.c, -2 * step), (p.c + trail, -2 * step), f"{along} = {_m(trail)}"),
     ]
     if p.R2:  # of a skate it is −c1
         b = p.R2 * np.sin(lam) - c1
         words.append(_to_axis(ax, (p.c, p.R2), -b, lam, f"b = {_m(b)}"))
-    d = p.h2 * np.sin(lam) + (p.l2 - p.c) * np.cos(lam) - c1
-    words.append(_to_axis(ax, (p.l2, p.h2), -d, lam, f"d = {_m(d)}"))
+    if p.bodies is None:
+        d = p.h2 * np.sin(lam) + (p.l2 - p.c) * np.cos(lam) - c1
+        words.append(_to_axis(ax, (p.c, 0.0), c1, lam, f"c1 = {_m(c1)}"))
+        words.append(_to_axis(ax, (p.l2, p.h2), -d, lam, f"d = {_m(d)}"))
     words = [*masses, *words, Words("steering axis", (float(head[0]), float(head[1])), _LEFT, _AXIS)]
 
     ax.set_aspect("equal")
@@ -124,24 +123,60 @@ def _on_axis(foot: Point, up: Any, height: float) -> Point:
     return float(x), float(y)
 
 
-def _wheel(ax: Axes, centre: Point, radius: float, color: str, name: str) -> list[Words]:
+def _wheels(ax: Axes, p: Bicycle) -> list[Words]:
+    if p.bodies is not None:
+        names = ("rR", f"mR = {p.bodies['mR']:.4g} kg"), ("rF", f"mF = {p.bodies['mF']:.4g} kg")
+    else:
+        names = (("R", ""), ("", "")) if p.R1 == p.R2 else (("R1", ""), ("R2", ""))
+    return [
+        *_wheel(ax, (0, p.R1), p.R1, _REAR, *names[0]),
+        *_wheel(ax, (p.c, p.R2), p.R2, _FRONT, *names[1]),
+    ]
+
+
+def _wheel(ax: Axes, centre: Point, radius: float, color: str, name: str, mass: str) -> list[Words]:
     ax.add_patch(Circle(centre, radius, fill=False, ec=color, lw=2.2))
     ax.plot(*centre, "o", color=color, ms=4)
     if not (radius and name):
         return []
     ax.plot([centre[0], centre[0] - radius], [centre[1]] * 2, color=color, lw=0.8)
-    return [Words(f"{name} = {_m(radius)}", (centre[0] - radius / 2, centre[1]), [(0, 1), (0, -1)])]
+    text = f"{name} = {_m(radius)}" + (f"\n{mass}" if mass else "")
+    return [Words(text, (centre[0] - radius / 2, centre[1]), [(0, 1), (0, -1)])]
 
 
-def _mass(ax: Axes, at: Point, name: str, mass: float, color: str, joints: list[Point]) -> Words:
-    """A centre of mass, its height and distance, and lines to what its part is joined to."""
+def _masses(ax: Axes, p: Bicycle, on_axis: Point) -> list[Words]:
+    """Centres of mass: of the two parts, or of the bodies in the notation of Meijaard et al. (2007)."""
+    rear, front = [(0.0, p.R1), on_axis], [(p.c, p.R2), on_axis]
+    if p.bodies is None:
+        return [
+            _mass(ax, (p.l1, p.h1), f"M1: {p.m1:.4g} kg", ("l1", "h1"), _REAR, rear),
+            _mass(ax, (p.l2, p.h2), f"M2: {p.m2:.4g} kg", ("l2", "h2"), _FRONT, front),
+        ]
+    of = p.bodies
+    found = []
+    for name, mass, x, z, color, joints in (
+        ("rider.", "rider.m", "rider.x", "rider.z", _REAR, []), ("B", "mB", "xB", "zB", _REAR, rear),
+        ("H", "mH", "xH", "zH", _FRONT, front),
+    ):  # fmt: skip
+        if of.get(mass):
+            joints = joints or [(of["xB"], -of["zB"])]
+            words = f"{name.removesuffix('.')}: {mass} = {of[mass]:.4g} kg"
+            found.append(_mass(ax, (of[x], -of[z]), words, (x, z), color, joints, down=True))
+    return found
+
+
+def _mass(
+    ax: Axes, at: Point, words: str, names: tuple[str, str], color: str, joints: list[Point],
+    *, down: bool = False,
+) -> Words:  # fmt: skip
+    """A centre of mass with its coordinates, the second positive ``down``, and lines to its joints."""
     for joint in joints:
         ax.plot(*zip(at, joint, strict=True), color=color, lw=1.6, alpha=0.35)
     ax.plot([at[0], at[0]], [0, at[1]], color=color, lw=0.7, ls=":")
     ax.plot(*at, "o", ms=11, mfc="white", mec=color, mew=2)
     ax.plot(*at, "+", ms=9, color=color)
-    i = name[1]
-    return Words(f"{name}: {mass:.4g} kg\nl{i} = {_m(at[0])}\nh{i} = {_m(at[1])}", at, AROUND)
+    x, y = names
+    return Words(f"{words}\n{x} = {_m(at[0])}\n{y} = {_m(-at[1] if down else at[1])}", at, AROUND)
 
 
 def _length(ax: Axes, start: Point, stop: Point, words: str) -> Words:

@@ -22,8 +22,8 @@ from bikestab_cli.output import WIDTH, print_json, tell_file
 def command(name: str | None, output: str | None, given: Given, as_json: bool) -> None:
     """List the bicycles that come with bikestab.
 
-    With NAME, print the YAML file of that one. With -o, draw it to scale with the symbols of the paper, at
-    its own tilt and trail where no others are given.
+    With NAME, print the YAML file of that one. With -o, draw it to scale with the symbols of its own
+    notation, at its own tilt and trail where no others are given.
 
     Such a file, changed to taste, serves as --bicycle FILE and as 'bicycle: FILE' in a config.
 

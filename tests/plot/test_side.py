@@ -52,3 +52,34 @@ def test_skates_have_no_wheels():
     bicycle = Bicycle.preset("kooijman2011")
     ax = draw_side(bicycle, bicycle.lam, bicycle.sigma).axes[0]
     assert not [text for text in ax.texts if text.get_text().startswith("R")]
+
+
+def test_a_machine_of_25_parameters_has_their_symbols():
+    bicycle = Bicycle.preset("meijaard2007")
+    ax = draw_side(bicycle, bicycle.lam, bicycle.sigma).axes[0]
+    words = {text.get_text() for text in ax.texts}
+    assert {
+        "B: mB = 85 kg\nxB = 0.3 m\nzB = −0.9 m", "H: mH = 4 kg\nxH = 0.9 m\nzH = −0.7 m",
+        "rR = 0.3 m\nmR = 2 kg", "rF = 0.35 m\nmF = 3 kg", "w = 1.02 m", "c = 0.08 m", "b = 0.0321 m",
+    } <= words  # fmt: skip
+    assert not any(word.startswith(("M1", "M2", "c1", "d =")) for word in words)
+    masses = [line.get_data() for line in ax.lines if line.get_marker() == "+"]
+    assert [(x[0], y[0]) for x, y in masses] == [(0.3, 0.9), (0.9, 0.7)]
+
+
+def test_a_rider_apart_is_a_body_of_its_own():
+    given = Bicycle.preset("meijaard2007").given
+    rider = {
+        "rider.m": 75.0,
+        "rider.x": 0.35,
+        "rider.z": -1.1,
+        "rider.Ixx": 8.0,
+        "rider.Izz": 2.4,
+        "rider.Ixz": -1.9,
+    }
+    bicycle = Bicycle.from_mapping({**given, "mB": 15.0, **rider})
+    ax = draw_side(bicycle, bicycle.lam, bicycle.sigma).axes[0]
+    assert "rider: rider.m = 75 kg\nrider.x = 0.35 m\nrider.z = −1.1 m" in {
+        text.get_text() for text in ax.texts
+    }
+    assert ax.get_ylim()[1] > 1.1
