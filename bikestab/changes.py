@@ -14,6 +14,7 @@ from bikestab.model import exact_table
 from bikestab.records import design_record, interval_records
 from bikestab.spectrum import growth_rate_of
 from bikestab.speeds import intervals_of
+from bikestab.variants import parameter_of
 
 _OPEN = 5.0  # m/s above V1: where an interval without upper limit is asked for its growth rate
 
@@ -54,13 +55,19 @@ def compare(A: Side, B: Side, box: Box, within: float | str | None = None) -> tu
         "growth_rate": _growth_rates(A, B),
         "region": {
             "box": dict(zip(names, map(list, box.ends), strict=True)),
-            "designs": [len(box.x), len(box.y)],
+            "designs": [len(box.x), len(box.y)], "unit": _unit(A, box.names),
             "A": found.volumes[0], "B": found.volumes[1], "difference": found.difference,
             "union": found.union, "share": found.share, "mean": found.mean, "within": far,
         },
         "within": within, "holds": None if within is None else all(each is not False for each in asked),
     }  # fmt: skip
     return record, found
+
+
+def _unit(side: Side, names: tuple[str, str]) -> str:
+    """That of a volume in a box."""
+    units = [parameter_of(side.bicycle, name).unit for name in names]
+    return " ".join([*(unit for unit in units if unit != "1"), "m/s"])
 
 
 def _share_holds(found: Region, within: float | str) -> bool:

@@ -1,6 +1,8 @@
-"""The picture of two machines: their growth rates at their designs, and where exactly one is stable."""
+"""The picture of machines compared with the first: growth rates at their designs, and where one is stable."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -8,58 +10,109 @@ from matplotlib.figure import Figure
 
 from bikestab.comparison import Box, Region, Side
 from bikestab.family import Family
-from bikestab.plot.axes import HALO, label_family
+from bikestab.model import exact_table
+from bikestab.plot.axes import HALO, label_family, labels_of
 from bikestab.plot.growth import growth_axes
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.placing import Room, beside
 from bikestab.plot.settings import own_settings
+from bikestab.speeds import intervals_of
 
 Place = tuple[float, float]
-_MARK = 8  # points
+_MARKS = (("o", 10), ("s", 5))  # points
+_COLUMNS = 2  # of maps
+_WIDTHS, _GROWTH, _MAP = (6.2, 7.6), 4.4, (5.0, 3.4)  # inches, of a map that stands alone and of others
+_BEYOND = 1.5  # where growth rates end, of the highest end of stability
 
 
 @own_settings()
-def draw_compared(A: Side, B: Side, box: Box, region: Region) -> Figure:
-    """Growth rates where both have a design, and a map over λ and σ where the box has lengths in both."""
-    sides = [(f"{letter}: {short(side.name)}", side) for letter, side in (("A", A), ("B", B))]
-    curves = [(name, side.bicycle, *side.design, side.model) for name, side in sides if side.design]
-    plane = min(len(box.x), len(box.y)) > 1
-    number = bool(curves) + plane
-    figure = Figure(figsize=(6.2, 4.4 * max(number, 1) + 0.6 * plane), layout="constrained")
+def draw_compared(sides: Sequence[Side], box: Box, regions: Sequence[Region]) -> Figure:
+    """Growth rates of those that have a design, and maps where the box has lengths in both of its parameters.
+
+    Each map shows where the first differs from one of the others, whose ``regions`` these are; all are on one
+    scale.
+    """
+    named = [(f"{_letter(i)}: {short(side.name)}", side) for i, side in enumerate(sides)]
+    curves = [(name, side.bicycle, *side.design, side.model) for name, side in named if side.design]
+    maps = len(regions) if min(len(box.x), len(box.y)) > 1 else 0
+    columns = min(maps, _COLUMNS) or 1
+    rows = -(-maps // columns)
+    top = _GROWTH if curves else 0.0
+    height = _MAP[columns - 1] * rows
+    figure = Figure(figsize=(_WIDTHS[columns - 1], max(top + height, 1.0)), layout="constrained")
+    ratios = [*([top] if curves else []), *[height / max(rows, 1)] * rows]
+    grid = figure.add_gridspec(max(len(ratios), 1), columns, height_ratios=ratios or None)
     if curves:
-        above = figure.add_subplot(number, 1, 1)
-        growth_axes(above, curves, *box.ends[2])
-        for name, side in sides:
-            if not side.design:
-                set_title(above, above.get_title(), f"({name} has no design of its own)")
-    if plane:
-        ax = figure.add_subplot(number, 1, number)
-        apart = np.ma.masked_equal(region.apart.T, 0)
-        image = ax.pcolormesh(box.x, box.y, apart, cmap="cividis", shading="nearest", vmin=0, rasterized=True)
-        if region.apart.any():
-            bar = figure.colorbar(image, ax=ax, location="bottom", aspect=30)  # beside there may be the trail
-            bar.set_label("speeds at which exactly one is stable [m/s]")
-        ax.set_xlim(*box.ends[0])
-        ax.set_ylim(*box.ends[1])
-        family = Family(A.bicycle, A.model, *box.names)
-        label_family(ax, *box.names, family, one_wheelbase=A.bicycle.c == B.bicycle.c)
-        words = f"Stable regions differ in {100 * region.share:.3g} % of their union"
-        set_title(ax, f"{words}; white: no difference")
-        _mark_designs(figure, ax, {name[0]: place for name, side in sides if (place := _place(box, side))})
+        above = figure.add_subplot(grid[0, :])
+        growth_axes(above, curves, box.ends[2][0], _highest(sides, box))
+        without = [name for name, side in named if not side.design]
+        if without:
+            words = f"({', '.join(without)}: no design of {'its' if len(without) == 1 else 'their'} own)"
+            set_title(above, above.get_title(), words)
+    axes = [figure.add_subplot(grid[k // columns + bool(curves), k % columns]) for k in range(maps)]
+    largest = max((float(found.apart.max()) for found in regions), default=0.0)
+    for k, ax in enumerate(axes):
+        both = [sides[0], sides[k + 1]]
+        ax.pcolormesh(
+            box.x, box.y, np.ma.masked_equal(regions[k].apart.T, 0), cmap="cividis", shading="nearest",
+            vmin=0, vmax=largest or 1, rasterized=True,
+        )  # fmt: skip
+        _label(ax, both, box, alone=maps == 1)
+        words = f"Stable regions differ in {100 * regions[k].share:.3g} % of their union"
+        if maps > 1:
+            words = f"A and {_letter(k + 1)} differ in {100 * regions[k].share:.3g} % of their union"
+        set_title(ax, f"{words}; white: no difference" if maps == 1 else words, panels=columns)
+    if axes and largest:
+        bar = figure.colorbar(
+            axes[0].collections[0], ax=axes, location="bottom", aspect=30, shrink=1 / columns
+        )  # beside there may be the trail
+        bar.set_label("speeds at which exactly one is stable [m/s]" + ("; white: none" if maps > 1 else ""))
+    if engine := figure.get_layout_engine():
+        engine.execute(figure)  # which says where the axes are
+    for k, ax in enumerate(axes):
+        pair = {"A": sides[0], _letter(k + 1): sides[k + 1]}
+        _mark_designs(ax, {name: place for name, side in pair.items() if (place := _place(box, side))})
     return figure
 
 
-def _mark_designs(figure: Figure, ax: Axes, places: dict[str, Place]) -> None:
+def _letter(number: int) -> str:
+    return chr(ord("A") + number)
+
+
+def _highest(sides: Sequence[Side], box: Box) -> float:
+    """The end of the speeds that growth rates are drawn at: beyond all ends of stability, in the box."""
+    low, high = box.ends[2]
+    ends = [0.0]
+    for side in sides:
+        if side.design:
+            found = intervals_of(exact_table(side.bicycle, *side.design, model=side.model))
+            edges = np.concatenate([found.V1[: found.number], found.V2[: found.number]])
+            ends += edges[(edges > low) & (edges < high)].tolist()
+    return min(high, float(np.ceil(low + _BEYOND * (max(ends) - low)))) if max(ends) > low else high
+
+
+def _label(ax: Axes, both: Sequence[Side], box: Box, *, alone: bool) -> None:
+    """The axes of a map; beside one that stands ``alone`` also the head angle and the trail."""
+    ax.set_xlim(*box.ends[0])
+    ax.set_ylim(*box.ends[1])
+    family = Family(both[0].bicycle, both[0].model, *box.names)
+    if alone:
+        label_family(ax, *box.names, family, one_wheelbase=both[0].bicycle.c == both[1].bicycle.c)
+        return
+    labels = labels_of(family)
+    ax.set_xlabel(labels[box.names[0]])
+    ax.set_ylabel(labels[box.names[1]])
+
+
+def _mark_designs(ax: Axes, places: dict[str, Place]) -> None:
     """A mark for each design, with its letter, or one with the letters of two in the same place."""
     letters = {
         place: ", ".join(name for name in places if places[name] == place) for place in places.values()
     }
-    if engine := figure.get_layout_engine():
-        engine.execute(figure)  # which says where the axes are
     room = Room(ax)
-    for place, marker in zip(letters, "os", strict=False):
-        ax.plot(*place, marker, ms=_MARK, mfc="white", mec="black", clip_on=False)
-        room.mark(*place, _MARK)
+    for place, (marker, size) in zip(letters, _MARKS, strict=False):  # the second hides none of the first
+        ax.plot(*place, marker, ms=size, mfc="white", mec="black", clip_on=False)
+        room.mark(*place, size)
     for place, words in letters.items():
         beside(room, ax, words, *place, size=10, away=(5.0,), needed=True, path_effects=HALO)
 

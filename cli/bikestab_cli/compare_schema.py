@@ -22,8 +22,8 @@ from bikestab_cli.shapes import (
 )
 
 _SIDE = record(
-    "one of the two", name=words("as it was typed"), bicycle=words("its name"), model=MODEL,
-    delta=num("steering damping [kg m²/s]"), intervals=INTERVALS,
+    "one of the two; A is the first", name=words("as it was typed"), bicycle=words("its name"),
+    model=MODEL, delta=num("steering damping [kg m²/s]"), intervals=INTERVALS,
     design=either(record("a design", **DESIGN), NULL, text="what is compared; null: it has none of its own"),
 )  # fmt: skip
 _CHANGE = record(
@@ -35,7 +35,7 @@ _CHANGE = record(
 _REGION = record(
     "the stable regions", box=named(PAIR, "the ends of λ, σ and V, or of other parameters of the grids"),
     designs=some({"type": "integer"}, "how many along λ and σ, or the others"),
-    A=num("volume of A's [rad m/s, or the others' units]"), B=num("of B's"),
+    unit=words("of volumes: rad m/s, or the others' units"), A=num("volume of A's"), B=num("of B's"),
     difference=num("of the symmetric difference"),
     union=num("of the union"), share=num("the difference as a share of the union"),
     mean=num("distance of the stable speeds, on the mean of designs with any [m/s]"),
@@ -44,7 +44,7 @@ _REGION = record(
 WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")
 COMPARE = answer(
     record(
-        "the comparison",
+        "the comparison of the first with one of the others, which is B",
         A=_SIDE,
         B=_SIDE,
         parameters=some(_CHANGE, "those that differ"),

@@ -131,8 +131,8 @@ def letter_of(number: int) -> str:
 
 def within(value: float, letters: int) -> str:
     """A number in at most so many letters, of six digits where there is room for them."""
-    texts = (f"{value:.{digits}g}" for digits in range(6, 0, -1))
-    return next((text for text in texts if len(text) <= letters), f"{value:.1g}")
+    texts = (f"{value:z.{digits}g}" for digits in range(6, 0, -1))
+    return next((text for text in texts if len(text) <= letters), f"{value:z.1g}")
 
 
 def decimals(value: float, digits: int, least: float = 0.0) -> str:

@@ -34,6 +34,8 @@ from bikestab_cli.vrange_words import Found, told_all, told_one
 if TYPE_CHECKING:
     from bikestab.model import Model
 
+_HELPED = 40  # machines of which a table tells what would help
+
 
 @click.command("vrange")
 @design_options("a range")
@@ -108,10 +110,11 @@ def command(
         show_over(machines, over, model, deviations, output, as_json)
         return
     axis = _axis_drawn(given) if output else ""
-    single = is_single(given) and len(machines) == 1
+    single = is_single(given)
+    helped = as_json or (single and len(machines) <= _HELPED)
     lacks = lacking(machines, given)
     found = [
-        Found(machine, [], [], lack) if lack else _found(machine, given, model, deviations, as_json or single)
+        Found(machine, [], [], lack) if lack else _found(machine, given, model, deviations, helped)
         for machine, lack in zip(machines, lacks, strict=True)
     ]
     shown = [each for each in found if not each.problem]
@@ -142,7 +145,7 @@ def _results(found: Found) -> Sequence[Mapping[str, Any]]:
 def _found(
     machine: Chosen, given: Given, model: Model, deviations: tuple[bool, dict[str, float]], nearest: bool
 ) -> Found:  # fmt: skip
-    """The answers about one machine; a table has no room for what is ``nearest``."""
+    """The answers about one machine, and what is ``nearest`` if that is told."""
     from bikestab.region.answers import stable_speeds
 
     bicycle = machine.bicycle

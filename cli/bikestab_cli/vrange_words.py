@@ -71,6 +71,11 @@ def told_all(found: list[Found], model: Model) -> str:
             (answer, "; ".join(known_lines(each))) for answer, each in zip(answers, spreads, strict=False)
         ]
         notes += [f"{machine.words} at {_design(answer)}: {text}" for answer, text in (*open_, *known)]
+        notes += [
+            f"{machine.words}: {_short_advice(answer, machine.bicycle, model)}"
+            for answer in answers
+            if answer["nearest"]
+        ]
     return "\n".join(
         [
             prose(heading_of_all([each.machine.bicycle for each in found], model, found[0].machine.set))
@@ -145,33 +150,52 @@ def _rows(answers: list[Answer], digits: int) -> list[list[str]]:
     return rows
 
 
-def _advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
-    """What would help, and what was searched for it; designs are rounded so that they can be typed in."""
+class _Nearest(NamedTuple):
+    """The nearest designs with a stable speed, rounded so that they can be typed in; empty or None: none.
+
+    ``sigma`` are those above and below, and ``lam`` from where to where.
+    """
+
+    sigma: tuple[str, str]
+    lam: tuple[str, str] | None
+
+
+def _rounded(answer: Answer, bicycle: Bicycle, model: Model) -> _Nearest:
     from bikestab.family import Family
-    from bikestab.region.nearest import V_MAX, rounded, searched
+    from bikestab.region.nearest import rounded
 
     family = Family(bicycle, model)
     nearest: Any = answer["nearest"]  # read by computed keys
     lam, sigma = answer["lam"], answer["sigma"]
-    lam_range, sigma_range = searched(lam, sigma)
-    trails = []
-    for key, way, side, end in (
-        ("sigma_min", 1, "above", sigma_range[1]),
-        ("sigma_max", -1, "below", sigma_range[0]),
-    ):
-        if nearest[key] is None:
-            trails.append(f"none {'searched ' if sigma == end else ''}{side}")
-        else:
-            text = rounded(lambda value: family.exact_table(lam, value), nearest[key], way)
-            trails.append(f"σ = {text} {side} (trail {float(text) * bicycle.c:.4f} m)")
+
+    def trail(key: str, way: int) -> str:
+        there = nearest[key] is not None
+        return rounded(lambda value: family.exact_table(lam, value), nearest[key], way) if there else ""
+
+    def tilt(key: str, way: int) -> str:
+        return rounded(lambda value: family.exact_table(value, sigma), nearest[key], way)
+
+    tilts = None if nearest["lam_min"] is None else (tilt("lam_min", 1), tilt("lam_max", -1))
+    return _Nearest((trail("sigma_min", 1), trail("sigma_max", -1)), tilts)
+
+
+def _advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
+    """What would help, and what was searched for it."""
+    from bikestab.region.nearest import V_MAX, searched
+
+    nearest: Any = answer["nearest"]
+    lam_range, sigma_range = searched(answer["lam"], answer["sigma"])
+    found = _rounded(answer, bicycle, model)
+    trails = [
+        f"σ = {text} {side} (trail {float(text) * bicycle.c:.4f} m)"
+        if text
+        else f"none {'searched ' if answer['sigma'] == end else ''}{side}"
+        for text, side, end in zip(found.sigma, ("above", "below"), sigma_range[::-1], strict=True)
+    ]
     angles = "none"
-    if nearest["lam_min"] is not None:
-        ends = [
-            rounded(lambda value: family.exact_table(value, sigma), nearest[key], way)
-            for key, way in (("lam_min", 1), ("lam_max", -1))
-        ]
-        angles = "λ = {} ... {} rad".format(*ends)
-        angles += " (head angle {:.2f} ... {:.2f}°)".format(*(90 - math.degrees(float(end)) for end in ends))
+    if found.lam:
+        angles = "λ = {} ... {} rad".format(*found.lam)
+        angles += " (head angle {:.2f} ... {:.2f}°)".format(*(90 - math.degrees(float(x)) for x in found.lam))
         if limits := [f"{end:g}" for end in lam_range if end in (nearest["lam_min"], nearest["lam_max"])]:
             angles += f", at least: the search ends at {' and '.join(limits)}"
     lines = [
@@ -184,6 +208,17 @@ def _advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
             f"least unstable at {nearest['V']:.3f} m/s, where it grows at {nearest['growth_rate']:.4g} 1/s"
         )
     return "\n".join(lines)
+
+
+def _short_advice(answer: Answer, bicycle: Bicycle, model: Model) -> str:
+    """The same in a line."""
+    nearest: Any = answer["nearest"]
+    found = _rounded(answer, bicycle, model)
+    trails = " or ".join(filter(None, found.sigma))
+    helps = [f"σ = {trails} at this λ"] if trails else []
+    helps += ["λ = {} ... {} rad at this σ".format(*found.lam)] if found.lam else []
+    words = f"nearest stable: {', '.join(helps)}" if helps else "no λ or σ alone helps"
+    return words if nearest["V"] is None else f"{words}; least unstable at {nearest['V']:.3f} m/s"
 
 
 def _span(ends: tuple[float, float]) -> str:

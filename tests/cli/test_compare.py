@@ -9,6 +9,7 @@ import pytest
 from bikestab.bicycle import Bicycle
 from bikestab.comparison import Side, box_of, region
 from bikestab.model import exact_table
+from bikestab.plot.compared import draw_compared
 from bikestab.spectrum import growth_rate_of
 from bikestab.stability import growth_rate
 
@@ -126,14 +127,71 @@ def test_a_picture(bikestab):
     assert Path("both.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_the_first_is_compared_with_each_of_the_others(bikestab):
+    """One command: the records are those of the pairs, and the table has a column each."""
+    names = ("meijaard2007", "sharp1971", "kooijman2011")
+    code, out, _ = bikestab("compare", *names, "--within", "10%", "--json", "-o", "three.png")
+    found = json.loads(out)
+    assert (code, found["files"]) == (1, {"picture": "three.png"})
+    assert Path("three.png").read_bytes().startswith(b"\x89PNG")
+    for other, record in zip(names[1:], found["results"], strict=True):
+        alone = result(bikestab("compare", names[0], other, "--within", "10%", "--json"))[1]
+        for key in ("ends", "growth_rate"):  # one notation for all: other than to rounding they are the same
+            for mine, pair in zip(record[key], alone[key], strict=True):
+                assert mine["A"] == pytest.approx(pair["A"], rel=1e-13)
+                assert mine["B"] == (pair["B"] and pytest.approx(pair["B"], rel=1e-13))
+        assert record["region"]["share"] == pytest.approx(alone["region"]["share"], rel=1e-12)
+        assert record["holds"] is alone["holds"]
+        assert record["B"]["name"] == other
+    _, out, _ = bikestab("compare", *names)
+    assert max(map(len, out.splitlines())) <= 80
+    (V1,) = (line.split() for line in out.splitlines() if line.startswith("V1 [m/s]"))
+    ends = [record["ends"][0] for record in found["results"]]
+    assert V1[2:] == [f"{x:.6f}" for x in (ends[0]["A"], ends[0]["B"], ends[1]["B"])]
+    assert "l1 [m]" in out  # one notation for all
+    assert "mB" not in out
+    regions = [line.split() for line in out.splitlines() if line[:2] in ("B ", "C ")][-2:]
+    assert [float(row[4]) for row in regions] == pytest.approx(
+        [100 * record["region"]["share"] for record in found["results"]], rel=5e-3
+    )
+
+
+def test_many_are_compared_in_several_tables_of_80_columns(bikestab):
+    for mass in (60, 70, 80, 90, 100):
+        text = Path(bicycle_file()).read_text("utf-8").replace("mB: 85 ", f"mB: {mass} ")
+        Path(f"m{mass}.yaml").write_text(text.replace("name: meijaard2007\n", ""), "utf-8")
+    names = ["m60.yaml", "dikarev1981", *(f"m{mass}.yaml" for mass in (70, 80, 90, 100))]
+    code, out, _ = bikestab("compare", *names)
+    assert code == 0
+    assert max(map(len, out.splitlines())) <= 80
+    assert "B has no design of its own: give --lam and --sigma" in out
+    heads = [line.split() for line in out.splitlines() if line.split()[:1] == ["parameter"]]
+    assert heads == [["parameter", "A", "B", "C", "D"], ["parameter", "A", "E", "F"]]
+
+
+def test_growth_rates_are_drawn_to_beyond_the_ends():
+    bike = Bicycle.preset("meijaard2007")
+    side = Side("a", bike, "refined", (bike.lam, bike.sigma))
+    for top, right in ((30.0, 10.0), (8.0, 8.0)):
+        box = box_of(((0.1, 0.4), (0.02, 0.12), (0.0, top)))
+        figure = draw_compared([side, side, side], box, [region(side, side, box)] * 2)
+        growth, *maps = figure.axes
+        assert growth.get_xlim() == (0, right)  # V2 = 6.02
+        assert [ax.get_title() for ax in maps[:2]] == [
+            f"A and {letter} differ in 0 % of their union" for letter in "BC"
+        ]
+
+
 @pytest.mark.parametrize(
     ("args", "words"),
     [
         (("meijaard2007", "nothing"), "there is no bicycle 'nothing'"),
-        (("meijaard2007",), "Missing argument 'B'"),
+        (("meijaard2007",), "Missing argument 'B...'"),
         (("meijaard2007", "sharp1971", "--within", "0%"), "0% is out of range"),
         (("meijaard2007", "sharp1971", "--within", "much"), "'much' is not a number"),
         (("a.yaml", "b.yaml"), "the two have no lam in common"),
+        (("a.yaml", "b.yaml", "meijaard2007"), "they have no lam in common"),
+        (("meijaard2007", "sharp1971", "nothing"), "there is no bicycle 'nothing'"),
         (("f.yaml", "b.yaml"), "b.yaml: is over lam and sigma, and the other over mB and xB"),
     ],
 )

@@ -50,6 +50,7 @@ CASES = [
     ("check", "tiny.yaml", "none.yaml", "--junit", "a.xml"),
     ("compare", "meijaard2007", "sharp1971", "--within", "1%"),
     ("compare", "dikarev1981", "tiny.yaml", "--at", "delta=0"),
+    ("compare", "meijaard2007", "sharp1971", "kooijman2011", "--within", "1%"),
     ("bicycles",),
     ("scan", "tiny.yaml", "--quiet", "--force"),
     ("info", "volume"),

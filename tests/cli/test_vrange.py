@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -622,3 +623,20 @@ def test_files_of_one_name_are_told_apart(bikestab):
     found = json.loads(bikestab("vrange", *three, "--json")[1])
     names = ["meijaard2007 (race.yaml)", "meijaard2007 (touring.yaml)", "meijaard2007"]
     assert [each["bicycle"] for each in found["results"]] == names
+
+
+def test_of_several_machines_a_line_says_what_would_help_each_that_is_never_stable(bikestab):
+    """The σ and the λ that it names, typed in, have a stable speed."""
+    machine = ("--bicycle", "meijaard2007", "--set", "delta=0,20,100")
+    code, out, err = bikestab("vrange", *machine)
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    words = " ".join(out.split())
+    for delta, stable in ((0, True), (20, False), (100, False)):
+        found = re.search(rf"meijaard2007 delta={delta}: nearest stable: σ = (\S+) at this λ", words)
+        assert (found is None) == stable
+        if found:
+            typed = ("--bicycle", "meijaard2007", "--delta", str(delta), "--sigma", found[1], "--json")
+            assert json.loads(bikestab("vrange", *typed)[1])["results"][0]["intervals"]
+    assert words.count("least unstable at") == 2
+    assert "nearest stable" not in bikestab("vrange", *machine, "--lam", "0.1:0.3:3")[1]

@@ -71,6 +71,8 @@ COMMANDS = [
     f"design {NAMED}",
     f"sensitivity {NAMED}",
     "compare meijaard2007 named.yaml",
+    "compare meijaard2007 sharp1971 kooijman2011",
+    "compare meijaard2007 dikarev1981 sharp1971 heavier.yaml longer.yaml",
     f"bicycles dikarev1981 {PAPER}",
     "bicycles meijaard2007",
     "bicycles sharp1971",
