@@ -54,7 +54,8 @@ def table_and_speeds(
         shapes = ", ".join(
             f"{k} {x.shape}" for k, x in (("lam", tilt), ("sigma", trail), ("V", speeds)) if x.ndim
         )
-        raise InputError(f"shapes do not broadcast together: {shapes}") from None
+        hint = "give each an axis of its own, as lam[:, None]"
+        raise InputError(f"shapes do not broadcast together: {shapes}", hint=hint) from None
     return exact_table(bicycle.with_delta(delta), tilt, trail, model=model), speeds
 
 

@@ -33,7 +33,7 @@ def keyed(values: Mapping[Any, Any], paper: Mapping[str, str], name: str) -> Key
     for key in texts:
         if (text := values.pop(key, None)) is not None:
             if not isinstance(text, str):
-                raise InputError(f"{shown(text)} is not text", key=(key,))
+                raise InputError(f"{shown(text)} is not text", key=(key,), hint="put it into quotes")
             texts[key] = str(text)  # YAML readers give subclasses
     meijaard = _is_meijaard(values, paper)
     notation = {**MEIJAARD, **RIDER} if meijaard else paper

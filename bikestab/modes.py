@@ -46,7 +46,8 @@ def follow(table: Floats | ExactTable, V: ArrayLike) -> Modes:
     if np.any(V < 0) or not np.all(np.isfinite(V)):
         raise InputError("a speed is negative or not finite", key=("V",), hint="allowed: 0 and above")
     if (table.value if isinstance(table, ExactTable) else table)[4, 0] == 0:
-        raise InputError("the mass matrix is singular: p4 = 0, and an eigenvalue is infinite")
+        hint = "give the front part some inertia about the steering axis"
+        raise InputError("the mass matrix is singular: p4 = 0, and an eigenvalue is infinite", hint=hint)
     if table.shape[1] > 4 and np.any(V == 0):
         raise InputError(
             "a gain in proportion to 1/V is infinite at rest", key=("V",), hint="allowed: above 0"

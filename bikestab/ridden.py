@@ -16,7 +16,8 @@ def with_rider(bicycle: Bicycle, path: str | Path) -> Bicycle:
     """
     if bicycle.bodies is None or "rider.m" in bicycle.bodies:
         why = "has a rider already" if bicycle.bodies else "is not given by the 25 parameters of its bodies"
-        raise InputError(f"the bicycle {bicycle.name!r} {why}", key=("rider",))
+        hint = "it takes a bicycle of the 25 parameters, such as meijaard2007, without 'rider:' in its file"
+        raise InputError(f"the bicycle {bicycle.name!r} {why}", key=("rider",), hint=hint)
     found = read_rider(path)
     try:
         joined = Bicycle.from_mapping(

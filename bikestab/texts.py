@@ -32,7 +32,8 @@ def read_text(path: str | Path, most: int = MOST_BYTES) -> str:
         hint = _neighbours(Path(path, "file"))
         raise InputError("is a folder, not a file", place=file, hint=hint) from None
     except OSError as error:
-        raise InputError(f"cannot be read ({error.strerror})", place=file) from None
+        denied = "its mode allows no reading: 'chmod u+r' does" if error.errno == errno.EACCES else ""
+        raise InputError(f"cannot be read ({error.strerror})", place=file, hint=denied) from None
     except ValueError:
         raise InputError("cannot be read (no file has such a name)", place=file) from None
     if len(content) > most:

@@ -199,9 +199,11 @@ def _override(document: yamltext.Document, override: str) -> tuple[tuple[str | i
             with suppress(ValueError):
                 step = int(part)
             if not isinstance(step, int) or not -len(node) <= step < len(node):
-                raise InputError(f"{dotted(key)} has no item {part}", place=f"--set {override}")
+                hint = f"it has {len(node)}, counted from 0" if node else "it is empty"
+                raise InputError(f"{dotted(key)} has no item {part}", place=f"--set {override}", hint=hint)
         elif not isinstance(node, dict):
-            raise InputError(f"{dotted(key)} has no keys", place=f"--set {override}")
+            problem, hint = f"{dotted(key)} has no keys", f"it is {shown(node)}; set it as a whole"
+            raise InputError(problem, place=f"--set {override}", hint=hint)
         key.append(step)
         if isinstance(node, dict) and step not in node:
             made, node = min(made, i + 1), {}

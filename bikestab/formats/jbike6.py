@@ -101,7 +101,8 @@ def _tilt(script: Script) -> tuple[float, float, list[str]]:
     unit = _DEGREES if in_degrees else 1.0
     notes = ["angles are in degrees"] if in_degrees else []
     if units == 1.0 and in_degrees:
-        raise InputError(f"{angle:g} is no angle in radians, which angle_units = 1 says it is", key=(key,))
+        problem = f"{angle:g} is no angle in radians, which angle_units = 1 says it is"
+        raise InputError(problem, key=(key,), hint="write it in radians, or leave angle_units out")
     if units == 2.0 and not in_degrees:
         notes.append("angles are in radians, as angle_units = 2 tells what JBike6 shows")
     if key == "lambda":

@@ -56,10 +56,13 @@ def reduce(entries: Mapping[str, Measured]) -> Reduced:
         hint = "a file of measurements has lengths, angles, masses and periods of every part"
         raise InputError(f"the measurement {key} is missing", hint=hint) from None
     except (ArithmeticError, AttributeError, ValueError, TypeError, IndexError) as error:
-        raise InputError(f"BicycleParameters cannot reduce these measurements ({error})") from None
+        problem = f"BicycleParameters cannot reduce these measurements ({error})"
+        hint = "compare them with a file of its own, such as its RigidRawParameters"
+        raise InputError(problem, hint=hint) from None
     missing = [key for key in MEIJAARD if key not in found and key not in OPTIONAL]
     if missing:
-        raise InputError(f"the measurements give no {', '.join(missing)}")
+        hint = "a file of measurements has lengths, angles, masses and periods of every part"
+        raise InputError(f"the measurements give no {', '.join(missing)}", hint=hint)
     parameters = {key: found[key] for key in MEIJAARD if key in found}
     values = {key: float(getattr(value, "nominal_value", value)) for key, value in parameters.items()}
     uncertain = {key: value for key, value in parameters.items() if getattr(value, "std_dev", 0)}

@@ -85,5 +85,5 @@ def _tilt(n: Mapping[str, float]) -> float:
         problem = (
             f"with these d1, d2 and d3 wheels of {n['rr']:g} and {n['rf']:g} m cannot stand on one ground"
         )
-        raise InputError(problem, key=("d2",))
+        raise InputError(problem, key=("d2",), hint="allowed: |rr - rf| below the distance of the axles")
     return math.acos(higher / math.hypot(across, along)) - math.atan2(across, along)

@@ -145,7 +145,8 @@ def _settled(
     except InputError as error:
         raise located(error) from None
     if values and not kept:
-        raise located(InputError(f"has no parameter of a bicycle: {', '.join(map(str, values))}"))
+        problem = f"has no parameter of a bicycle: {', '.join(map(str, values))}"
+        raise located(InputError(problem, hint="'bikestab bicycles meijaard2007' prints a file of one"))
     if kept.keys() >= {"kHaa", "alphaH"}:
         from bikestab.formats import principal
 

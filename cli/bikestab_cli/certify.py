@@ -41,7 +41,7 @@ MOST_CELLS = 512
 @click.command("certify")
 @click.argument("config", type=NAME, required=False, metavar="[CONFIG]")
 @design_options("two ends")
-@click.option("--V", "speed", type=SPEED_ENDS, metavar="A:B", help="Speed, from A to B.")
+@click.option("--V", "speed", type=SPEED_ENDS, metavar="A:B", help="Speeds: 5 or 4.6:5.6.")
 @click.option(
     "--bicycle",
     "bicycle_name",
@@ -55,7 +55,9 @@ MOST_CELLS = 512
     help="Steering damping δ [kg m²/s], instead of the bicycle's own.",
 )
 @click.option(
-    "--model", type=click.Choice(["refined", "unrefined"]), help="The equations.  [default: refined]"
+    "--model",
+    type=click.Choice(["refined", "unrefined"]),
+    help="The paper's refined equations, or those before it.  [default: refined]",
 )
 @click.option(
     "--tolerance",
@@ -86,7 +88,7 @@ MOST_CELLS = 512
     "-o", "--certificate", type=FILE, metavar="FILE", help="Write the proof for a checker, as JSON."
 )
 @click.option("--verify", type=NAME, metavar="FILE", help="Check a certificate, and nothing else.")
-@click.option("-q", "--quiet", is_flag=True, help="No progress.")
+@click.option("-q", "--quiet", is_flag=True, help="Tell nothing of the progress.")
 @json_option
 def command(
     config: str | None, given: Given, speed: Ends | None, bicycle_name: str | None, delta: float | None,
@@ -110,11 +112,16 @@ def command(
     \b
     Examples:
       bikestab certify configs/quick.yaml
-      bikestab certify --bicycle meijaard2007 --lam 17deg:19deg --sigma 0.07:0.085 --V 4.6:5.6
-      bikestab certify --bicycle meijaard2007 --lam 0.3 --sigma 0.08 --V 4.6:5 --tolerance mB=85+-2
-      bikestab certify --bicycle meijaard2007 --head-angle 72deg --offset 30mm:35mm --V 4.6:5.6
-      bikestab certify --bicycle meijaard2007 --lam 18deg --tolerance trail=80mm+-3mm --V 4.6:5.4
-      bikestab certify --lam 0.2:0.21 --sigma 0.08 --V 4.1:4.6 --cells 4 -o proof.json
+      bikestab certify --bicycle meijaard2007 --lam 17deg:19deg \\
+        --sigma 0.07:0.085 --V 4.6:5.6
+      bikestab certify --bicycle meijaard2007 --lam 0.3 --sigma 0.08 --V 4.6:5 \\
+        --tolerance mB=85+-2
+      bikestab certify --bicycle meijaard2007 --head-angle 72deg \\
+        --offset 30mm:35mm --V 4.6:5.6
+      bikestab certify --bicycle meijaard2007 --lam 18deg \\
+        --tolerance trail=80mm+-3mm --V 4.6:5.4
+      bikestab certify --lam 0.2:0.21 --sigma 0.08 --V 4.1:4.6 --cells 4 \\
+        -o proof.json
       bikestab certify --verify proof.json
     """
     if verify:

@@ -82,7 +82,7 @@ def command(
     Examples:
       bikestab compare meijaard2007 sharp1971
       bikestab compare configs/quick.yaml configs/dikarev1981.yaml --within 1%
-      bikestab compare meijaard2007 meijaard2007 --head-angle 71deg --trail 55mm --within 0.01
+      bikestab compare meijaard2007 meijaard2007 --trail 55mm --within 0.01
       bikestab compare meijaard2007 kooijman2011 -o both.png
       bikestab compare meijaard2007 sharp1971 kooijman2011 -o three.png
     """

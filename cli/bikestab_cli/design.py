@@ -100,27 +100,12 @@ if TYPE_CHECKING:
 )
 @json_option
 def command(
-    lam: Ends,
-    sigma: Ends,
-    trail: Ends | None,
-    head_angle: Ends | None,
-    offset: Ends | None,
-    judged: Ends | None,
-    stable: Ends | None,
-    V_max: float,
-    over: dict[str, Ends],
-    free: dict[str, Ends],
-    deviations: tuple[bool, dict[str, float]],
-    certified: bool,
-    certificate: str | None,
-    bicycle_name: tuple[str, ...],
-    changes: Values,
-    model: Model,
-    delta: float | None,
-    output: str | None,
-    csv_file: str | None,
-    as_json: bool,
-) -> None:
+    lam: Ends, sigma: Ends, trail: Ends | None, head_angle: Ends | None, offset: Ends | None,
+    judged: Ends | None, stable: Ends | None, V_max: float, over: dict[str, Ends], free: dict[str, Ends],
+    deviations: tuple[bool, dict[str, float]], certified: bool, certificate: str | None,
+    bicycle_name: tuple[str, ...], changes: Values, model: Model, delta: float | None,
+    output: str | None, csv_file: str | None, as_json: bool,
+) -> None:  # fmt: skip
     """Find the best tilt and trail, or other parameters.
 
     The widest interval of stable speeds, the lowest V1, the fastest decay (the lowest growth rate), and the
@@ -150,10 +135,13 @@ def command(
       bikestab design --bicycle meijaard2007 --V 5
       bikestab design --lam 10deg:25deg --trail 0.05:0.12 --stable 16km/h:18km/h
       bikestab design --sigma 0.08 --V 4:6 --json
-      bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5
+      bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg \\
+        --offset 0:80mm --V 5
       bikestab design --bicycle meijaard2007 --set mB=60,110 --V 5 -o fronts.png
-      bikestab design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm -o loads.png
-      bikestab design --bicycle meijaard2007 --free trail=2cm:15cm --stable 5:5.4 --sd mB=3
+      bikestab design --bicycle meijaard2007 --over mB=60:110 \\
+        --over offset=0:80mm -o loads.png
+      bikestab design --bicycle meijaard2007 --free trail=2cm:15cm \\
+        --stable 5:5.4 --sd mB=3
       bikestab design --bicycle meijaard2007 --certified --stable 4.6:5.4
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """

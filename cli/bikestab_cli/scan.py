@@ -112,7 +112,8 @@ def _load(
                 _check_page(config)
             path = Path(os.path.realpath(volume_path(config)))
             if path in loaded:
-                raise InputError(f"{config.output} is the output of {loaded[path][0]} too", key=("output",))
+                problem = f"{config.output} is the output of {loaded[path][0]} too"
+                raise InputError(problem, key=("output",), hint="give each config an output of its own")
         loaded[path] = name, config
     return list(loaded.values())
 

@@ -21,7 +21,7 @@ def from_help(command):
     text = command.get_help(click.Context(command))
     _, found, examples = re.split(r"\n\s*(Examples?:)\s*\n", text)
     assert found
-    lines = examples.split("\n\n")[0].splitlines()
+    lines = examples.split("\n\n")[0].replace("\\\n", " ").splitlines()
     return [line.strip() for line in lines if line.strip().startswith("bikestab ")]
 
 

@@ -135,7 +135,8 @@ def test_all_configs_are_read_before_the_first_is_computed(scan):
 def test_two_configs_with_one_output(scan):
     code, _, err = scan("a.yaml", "b.yaml", "--set", "output=out/both")
     assert code == 2
-    assert err == "error: b.yaml: output: out/both is the output of a.yaml too\n"
+    told = "error: b.yaml: output: out/both is the output of a.yaml too\n"
+    assert err == f"{told}  give each config an output of its own\n"
     assert not Path("out").exists()
 
 
