@@ -29,6 +29,7 @@ _PLANE = 81  # designs per axis of the coloured plane
 _TRACED = 2 * _PLANE - 1  # of the grid along which its curves are followed
 _CELLS = 36  # of the surface, per axis
 _STEPS = 65535  # of a surface's coordinates in the box, and of the plane's colour
+_LABELS = ("tilt λ [rad]", "trail σ", "speed V [m/s]")  # short: the picture is printed 89 mm wide
 _CURVE = 121  # points of a curve, at most
 
 
@@ -64,7 +65,7 @@ def _picture(mesh: Mesh, box: Sequence[tuple[float, float]]) -> dict[str, Any]:
     """
     figure = Figure(figsize=(4.8, 4.2))
     ax = cast("Axes3D", figure.add_subplot(projection="3d", computed_zorder=False))
-    arrange_region(figure, ax, legend_below(figure, draw_mesh(ax, mesh, box), handlelength=2))
+    arrange_region(figure, ax, legend_below(figure, draw_mesh(ax, mesh, box, _LABELS), handlelength=2))
     drawn, file = BytesIO(), BytesIO()
     figure.savefig(drawn, format="png", dpi=640 / 4.8)
     Image.open(drawn).convert("RGB").quantize(64).save(file, "png", optimize=True)  # a quarter of its size
