@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -33,46 +34,47 @@ def draw_compared(sides: Sequence[Side], box: Box, regions: Sequence[Region]) ->
     scale.
     """
     named = [(f"{_letter(i)}: {short(side.name)}", side) for i, side in enumerate(sides)]
-    curves = [(name, side.bicycle, *side.design, side.model) for name, side in named if side.design]
+    growth = any(side.design for side in sides)
     maps = len(regions) if min(len(box.x), len(box.y)) > 1 else 0
     columns = min(maps, _COLUMNS) or 1
     rows = -(-maps // columns)
-    top = _GROWTH if curves else 0.0
-    height = _MAP[columns - 1] * rows
-    figure = Figure(figsize=(_WIDTHS[columns - 1], max(top + height, 1.0)), layout="constrained")
-    ratios = [*([top] if curves else []), *[height / max(rows, 1)] * rows]
-    grid = figure.add_gridspec(max(len(ratios), 1), columns, height_ratios=ratios or None)
-    if curves:
-        above = figure.add_subplot(grid[0, :])
-        growth_axes(above, curves, box.ends[2][0], _highest(sides, box))
-        without = [name for name, side in named if not side.design]
-        if without:
-            words = f"({', '.join(without)}: no design of {'its' if len(without) == 1 else 'their'} own)"
-            set_title(above, above.get_title(), words)
-    axes = [figure.add_subplot(grid[k // columns + bool(curves), k % columns]) for k in range(maps)]
+    heights = [*([_GROWTH] if growth else []), *[_MAP[columns - 1]] * rows]
+    figure = Figure(figsize=(_WIDTHS[columns - 1], sum(heights) or 1.0), layout="constrained")
+    grid = figure.add_gridspec(len(heights) or 1, columns, height_ratios=heights or None)
+    if growth:
+        _growth(figure.add_subplot(grid[0, :]), named, box)
+    axes = [figure.add_subplot(grid[k // columns + growth, k % columns]) for k in range(maps)]
     largest = max((float(found.apart.max()) for found in regions), default=0.0)
     for k, ax in enumerate(axes):
-        both = [sides[0], sides[k + 1]]
         ax.pcolormesh(
             box.x, box.y, np.ma.masked_equal(regions[k].apart.T, 0), cmap="cividis", shading="nearest",
             vmin=0, vmax=largest or 1, rasterized=True,
         )  # fmt: skip
-        _label(ax, both, box, alone=maps == 1)
-        words = f"Stable regions differ in {100 * regions[k].share:.3g} % of their union"
-        if maps > 1:
-            words = f"A and {_letter(k + 1)} differ in {100 * regions[k].share:.3g} % of their union"
-        set_title(ax, f"{words}; white: no difference" if maps == 1 else words, panels=columns)
+        _label(ax, [sides[0], sides[k + 1]], box, alone=maps == 1)
+        words = f"differ in {100 * regions[k].share:.3g} % of their union"
+        words = (
+            f"A and {_letter(k + 1)} {words}" if maps > 1 else f"Stable regions {words}; white: no difference"
+        )
+        set_title(ax, *([] if growth else [named[0][0], named[k + 1][0]]), words, panels=columns)
     if axes and largest:
-        bar = figure.colorbar(
-            axes[0].collections[0], ax=axes, location="bottom", aspect=30, shrink=1 / columns
-        )  # beside there may be the trail
+        place: dict[str, Any] = {"location": "bottom", "aspect": 30}  # beside there may be the trail
+        bar = figure.colorbar(axes[0].collections[0], ax=axes, shrink=1 / columns, **place)
         bar.set_label("speeds at which exactly one is stable [m/s]" + ("; white: none" if maps > 1 else ""))
     if engine := figure.get_layout_engine():
         engine.execute(figure)  # which says where the axes are
     for k, ax in enumerate(axes):
         pair = {"A": sides[0], _letter(k + 1): sides[k + 1]}
-        _mark_designs(ax, {name: place for name, side in pair.items() if (place := _place(box, side))})
+        _mark_designs(ax, {name: at for name, side in pair.items() if (at := _place(box, side))})
     return figure
+
+
+def _growth(ax: Axes, named: Sequence[tuple[str, Side]], box: Box) -> None:
+    """Growth rates of those that have a design, and who has none."""
+    curves = [(name, side.bicycle, *side.design, side.model) for name, side in named if side.design]
+    growth_axes(ax, curves, box.ends[2][0], _highest([side for _, side in named], box))
+    if without := [name for name, side in named if not side.design]:
+        words = f"({', '.join(without)}: no design of {'its' if len(without) == 1 else 'their'} own)"
+        set_title(ax, ax.get_title(), words)
 
 
 def _letter(number: int) -> str:

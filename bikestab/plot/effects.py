@@ -16,7 +16,6 @@ from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import lines_for
 
-_MARKERS = ("o", "s", "^", "D", "v", "P", "X")  # one more than there are colours
 _ROWS = 16  # at most
 _SEEN = 0.01  # of the largest effect: a row with less shows nothing
 _WIDTH, _ROW, _MARK = 3.0, 0.27, 0.055  # inches: of an axis, of a row, and of a mark in it
@@ -49,8 +48,7 @@ def draw_effects(
     at = np.arange(len(shown))
     shifts = _APART * (np.arange(len(machines)) / max(len(machines) - 1, 1) - 0.5)
     marks: list[dict[str, Any]] = [
-        {"color": line.color, "marker": _MARKERS[i % len(_MARKERS)], "ms": 5, "ls": ""}
-        for i, line in enumerate(lines)
+        {"color": line.color, "marker": line.marker, "ms": 5, "ls": ""} for line in lines
     ]
     for k, (ax, result) in enumerate(zip(axes, results, strict=True)):
         for i, mark in enumerate(marks):

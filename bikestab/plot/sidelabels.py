@@ -21,6 +21,7 @@ DASHES = (
     "-", (0, (5, 2)), (0, (1.2, 1.4)), (0, (7, 1.6, 1.4, 1.6)), (0, (2.6, 1.2)),
     (0, (5, 1.3, 1.2, 1.3, 1.2, 1.3)),
 )  # fmt: skip
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")  # one more than there are colours
 MOST = 24
 _RIGHT = 0.9  # of the axes' width: where what ends is named at their side
 _LINE = 13 / 72  # inches of a line of text
@@ -29,10 +30,11 @@ _SAMPLES = 201  # of a curve, to compare it with others
 
 
 class Line(NamedTuple):
-    """What a curve looks like."""
+    """What a curve, or a mark of the same machine, looks like."""
 
     color: str
     ls: object
+    marker: str = "o"
 
 
 class Curve(NamedTuple):
@@ -50,7 +52,7 @@ def lines_for(number: int) -> list[Line]:
     if number > MOST:
         raise InputError(f"{number} curves in one picture cannot be told apart", hint=f"allowed: {MOST}")
     n = len(COLOURS)
-    return [Line(COLOURS[i % n], DASHES[(i + i // n) % n]) for i in range(number)]
+    return [Line(COLOURS[i % n], DASHES[(i + i // n) % n], MARKERS[i % len(MARKERS)]) for i in range(number)]
 
 
 def label_curves(ax: Axes, curves: Sequence[Curve]) -> None:

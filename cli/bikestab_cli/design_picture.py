@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.quantities import Ends
+from bikestab_cli.several import told_apart
 
 from bikestab.aside import meanwhile
 
@@ -42,7 +43,9 @@ def draw(found: Sequence[tuple[Chosen, Wanted, Best]], curves: Sequence[Curve], 
     if len(found) > 1:
         from bikestab.plot.fronts import draw_fronts
 
-        save(draw_fronts([(machine.words, wanted, best) for machine, wanted, best in found]), Path(output))
+        common, names = told_apart([machine for machine, _, _ in found])
+        fronts = [(name, wanted, best) for name, (_, wanted, best) in zip(names, found, strict=True)]
+        save(draw_fronts(fronts, common), Path(output))
         return
     from bikestab.plot.designs import draw_designs
 

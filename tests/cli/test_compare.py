@@ -169,6 +169,13 @@ def test_many_are_compared_in_several_tables_of_80_columns(bikestab):
     assert heads == [["parameter", "A", "B", "C", "D"], ["parameter", "A", "E", "F"]]
 
 
+def test_a_picture_without_growth_rates_says_who_they_are():
+    sides = [Side(name, Bicycle.preset("dikarev1981"), "refined", None) for name in ("a.yaml", "out/b")]
+    box = box_of(((0.1, 0.4), (0.02, 0.12), (0.0, 9.0)))
+    (ax,) = draw_compared(sides, box, [region(*sides, box)]).axes
+    assert ax.get_title().split("\n")[:2] == ["A: a.yaml", "B: out/b"]
+
+
 def test_growth_rates_are_drawn_to_beyond_the_ends():
     bike = Bicycle.preset("meijaard2007")
     side = Side("a", bike, "refined", (bike.lam, bike.sigma))

@@ -52,6 +52,7 @@ COMMANDS = [
     "design --bicycle meijaard2007 --head-angle 68deg:74deg --offset 0:80mm --V 5",
     "design --bicycle meijaard2007 --over mB=60:110 --over offset=0:80mm",
     f"design {ALL}",
+    "design --bicycle meijaard2007 --set mB=60,85,110",
     "design --bicycle meijaard2007 --free trail=2cm:15cm --free mB=60:110 --stable 5:5.4",
     f"sensitivity {PAPER}",
     "sensitivity --bicycle meijaard2007 --of growth",
