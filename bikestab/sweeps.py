@@ -21,15 +21,18 @@ def chosen(
         if name not in axes:
             hint = nearest(name, axes) if axes else "its config has no sweep"
             raise InputError(f"has no axis {name!r}", place=place, hint=hint)
+    allowed = {name: ", ".join(f"{value:g}" for value in axis) for name, axis in axes.items()}
+    if missing := [name for name in axes if name not in values]:
+        several = " and ".join(f"{name} = {allowed[name]}" for name in missing)
+        example = " ".join(f"--at {name}={axes[name][0]:g}" for name in missing)
+        hint = f"choose one, for example {example}"
+        raise InputError(f"has several machines, with {several}", place=place, hint=hint)
     numbers = {}
     for name, axis in axes.items():
-        allowed = ", ".join(f"{value:g}" for value in axis)
-        if name not in values:
-            problem = f"has several machines, with {name} = {allowed}"
-            hint = f"choose one, for example --at {name}={axis[0]:g}"
-            raise InputError(problem, place=place, hint=hint)
         near = int(np.argmin(np.abs(axis - values[name])))
         if not np.isclose(axis[near], values[name], rtol=1e-9, atol=0):
-            raise InputError(f"has no {name} = {values[name]:g}", place=place, hint=f"allowed: {allowed}")
+            raise InputError(
+                f"has no {name} = {values[name]:g}", place=place, hint=f"allowed: {allowed[name]}"
+            )
         numbers[name] = near
     return numbers

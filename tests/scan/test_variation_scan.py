@@ -108,7 +108,10 @@ def test_a_volume_of_one_machine(swept):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({}, "has several machines, with delta = 0, 2\nchoose one, for example --at delta=0"),
+        (
+            {},
+            "has several machines, with delta = 0, 2 and mB = 70, 80, 90\nchoose one, for example --at delta",
+        ),
         ({"delta": 2}, "has several machines, with mB = 70, 80, 90"),
         ({"delta": 1, "mB": 80}, "has no delta = 1\nallowed: 0, 2"),
         ({"detla": 2, "mB": 80}, "has no axis 'detla'\ndid you mean 'delta'?"),
