@@ -2,110 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
-from bikestab_cli.options import (
-    FILE,
-    PICTURE,
-    check_files,
-    free_option,
-    json_option,
-    over_ends_option,
-    sd_option,
-    told_as_options,
-)
+from bikestab_cli.design_box import Box, box_options
+from bikestab_cli.options import FILE, PICTURE, check_files, free_option, json_option, sd_option
 from bikestab_cli.output import print_json, tell_file
-from bikestab_cli.quantities import ANGLE_ENDS, LENGTH_ENDS, SPEED_ENDS, SPEED_VALUE, TRAIL_ENDS, Ends
-from bikestab_cli.several import Values, machines_chosen, record_of, several_machines
+from bikestab_cli.quantities import Ends
+from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
 
 if TYPE_CHECKING:
+    from bikestab.design.best import Best
+    from bikestab.design.criteria import Wanted
     from bikestab.model import Model
 
 
 @click.command("design")
-@click.option(
-    "--lam",
-    type=ANGLE_ENDS,
-    metavar="START:STOP",
-    default="0:0.6",
-    show_default=True,
-    help="Tilts of the steering axis, such as 10deg:25deg; one value fixes the tilt.",
-)
-@click.option(
-    "--sigma",
-    type=TRAIL_ENDS,
-    metavar="START:STOP",
-    default="0:0.3",
-    show_default=True,
-    help="Trails divided by the wheelbase; one value fixes the trail.",
-)
-@click.option(
-    "--trail", type=LENGTH_ENDS, metavar="START:STOP", help="Trails, such as 40mm:80mm; cuts --sigma."
-)
-@click.option("--head-angle", type=ANGLE_ENDS, metavar="START:STOP", help="Head angles, instead of --lam.")
-@click.option(
-    "--offset", type=LENGTH_ENDS, metavar="START:STOP", help="Fork offsets, such as 0:80mm; cuts the box."
-)
-@click.option(
-    "--V",
-    "judged",
-    type=SPEED_ENDS,
-    metavar="SPEED|START:STOP",
-    help="Where decay is judged, at the worst of a range.  [default: at the best speed of each design]",
-)
-@click.option(
-    "--stable",
-    type=SPEED_ENDS,
-    metavar="START:STOP",
-    help="Only designs that are stable at all these speeds.",
-)
-@click.option(
-    "--V-max",
-    "V_max",
-    type=SPEED_VALUE,
-    metavar="SPEED",
-    default="30",
-    show_default=True,
-    help="Intervals count up to here [m/s]; those that start above do not.",
-)
-@over_ends_option
+@box_options
 @free_option
 @sd_option
 @click.option(
-    "--certified",
-    is_flag=True,
+    "--certified", is_flag=True,
     help="The largest box around one design that is proved stable, with sides in the proportions of --sd.",
-)
+)  # fmt: skip
 @click.option(
-    "--certificate",
-    type=FILE,
-    metavar="FILE",
+    "--certificate", type=FILE, metavar="FILE",
     help="With --certified: write the proof for a checker, as JSON.",
-)
+)  # fmt: skip
 @several_machines
 @click.option(
-    "-o",
-    "--output",
-    type=PICTURE,
-    metavar="FILE",
+    "-o", "--output", type=PICTURE, metavar="FILE",
     help="Draw the plane of designs, or what --free found, as PNG, PDF or SVG.",
-)
+)  # fmt: skip
 @click.option(
-    "--csv",
-    "csv_file",
-    type=FILE,
-    metavar="FILE",
+    "--csv", "csv_file", type=FILE, metavar="FILE",
     help="Write the Pareto front, or what --free found, at full precision.",
-)
+)  # fmt: skip
 @json_option
 def command(
-    lam: Ends, sigma: Ends, trail: Ends | None, head_angle: Ends | None, offset: Ends | None,
-    judged: Ends | None, stable: Ends | None, V_max: float, over: dict[str, Ends], free: dict[str, Ends],
-    deviations: tuple[bool, dict[str, float]], certified: bool, certificate: str | None,
-    bicycle_name: tuple[str, ...], changes: Values, model: Model, delta: float | None,
-    output: str | None, csv_file: str | None, as_json: bool,
-) -> None:  # fmt: skip
+    box: Box,
+    free: dict[str, Ends],
+    deviations: tuple[bool, dict[str, float]],
+    certified: bool,
+    certificate: str | None,
+    bicycle_name: tuple[str, ...],
+    changes: Values,
+    model: Model,
+    delta: float | None,
+    output: str | None,
+    csv_file: str | None,
+    as_json: bool,
+) -> None:
     """Find the best tilt and trail, or other parameters.
 
     The widest interval of stable speeds, the lowest V1, the fastest decay (the lowest growth rate), and the
@@ -145,42 +93,41 @@ def command(
       bikestab design --bicycle meijaard2007 --certified --stable 4.6:5.4
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """
-    from bikestab_cli.design_picture import check_picture, draw, search
-    from bikestab_cli.design_words import told, told_all
-
-    from bikestab.design.criteria import Wanted
-    from bikestab.export.tables import FRONT, columns, front_blocks, of_machines, save_csv
-    from bikestab.family import Family
-    from bikestab.files import to_stdout
-
     if certified or certificate:
         from bikestab_cli.largest import check_certified, tell_largest
 
-        check_certified(certified, free or over or output or csv_file)
+        check_certified(certified, free or box.over or output or csv_file)
         check_files(certificate)
         machines = machines_chosen(bicycle_name, delta, changes)
-        tell_largest(machines, deviations, model, (V_max, judged, stable), certificate, as_json)
-        return
-    if free or any(deviations):
+        tell_largest(machines, deviations, model, box.speeds, certificate, as_json)
+    elif free or any(deviations):
         from bikestab_cli.free import check_free, tell_free
 
-        check_free(free, over)
+        check_free(free, box.over)
         machines = machines_chosen(bicycle_name, delta, changes)
-        tell_free(machines, free, deviations, model, (V_max, judged, stable), output, csv_file, as_json)
-        return
-    x, y = _axes(over)
-    if head_angle:
-        lam = _tilts(head_angle)
-    machines = machines_chosen(bicycle_name, delta, changes)
-    ends = (over[x], over[y]) if over else (lam, sigma)
-    named = dict.fromkeys((*over, "x", "y", "lam", "sigma"), "--over") if over else {}
-    with told_as_options(judged="--V", V_max="--V-max", **named):
-        asked = [
-            Wanted(Family(each.bicycle, model, x, y), *ends, trail, V_max, judged, stable, offset)
-            for each in machines
-        ]
+        tell_free(machines, free, deviations, model, box.speeds, output, csv_file, as_json)
+    else:
+        box = box.checked()
+        _tell_best(machines_chosen(bicycle_name, delta, changes), box, model, output, csv_file, as_json)
+
+
+def _tell_best(
+    machines: Sequence[Chosen],
+    box: Box,
+    model: Model,
+    output: str | None,
+    csv_file: str | None,
+    as_json: bool,
+) -> None:
+    """Search the box, and tell what was found, draw it and write it."""
+    from bikestab_cli.design_picture import check_picture, draw, search
+    from bikestab_cli.design_words import told, told_all
+
+    from bikestab.files import to_stdout
+
+    asked = box.wanted(machines, model)
     if output:
-        check_picture(*ends)
+        check_picture(*box.ends.values())
     check_files(csv_file, output)
     bests, curves = search(asked, output)
     found = list(zip(machines, asked, bests, strict=True))
@@ -188,50 +135,22 @@ def command(
     if not as_json:
         text = told_all(found) if others else told(wanted, best, machine.changes)
         click.echo(text, err=any(to_stdout(name) for name in (csv_file, output) if name))
-    files = {}
     if csv_file:
-        blocks = [
-            (each.bicycle.name, each.changes, front_blocks(own.pareto, [*over])) for each, _, own in found
-        ]
-        save_csv(*of_machines(columns(FRONT, asked[0].family), blocks), csv_file)
-        files["csv"] = csv_file
+        _save(found, [*box.over], csv_file)
     if output:
         draw(found, curves, output)
-        files["picture"] = output
+    files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if as_json:
-        searched: dict[str, object] = {"lam": lam, "sigma": sigma, "trail": trail, "offset": offset}
-        if over:
-            searched = {**over}
-        searched |= {"V_max": V_max, "judged": judged, "stable": stable}
-        results = [[{"searched": searched, **own._asdict()}] for _, _, own in found]
+        results = [[{"searched": box.searched(), **own._asdict()}] for own in bests]
         print_json(record_of(machines, model, results, files))
     else:
         for name in files.values():
             tell_file(name)
 
 
-def _axes(over: dict[str, Ends]) -> tuple[str, str]:
-    """The names of the two parameters that are searched over."""
-    context = click.get_current_context()
-    if not over:
-        return "lam", "sigma"
-    if len(over) != 2:
-        raise click.UsageError("--over is given twice, for two parameters", context)
-    others = ("lam", "sigma", "trail", "head_angle", "offset")
-    if any(context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT for name in others):
-        problem = (
-            "--over says all that is searched: leave out --lam, --sigma, --trail, --head-angle and --offset"
-        )
-        raise click.UsageError(problem, context)
-    x, y = over
-    return x, y
+def _save(found: Sequence[tuple[Chosen, Wanted, Best]], over: Sequence[str], csv_file: str) -> None:
+    """Write the fronts."""
+    from bikestab.export.tables import FRONT, columns, front_blocks, of_machines, save_csv
 
-
-def _tilts(head_angles: Ends) -> Ends:
-    from bikestab.geometry import tilt_of
-
-    if click.get_current_context().get_parameter_source("lam") != click.core.ParameterSource.DEFAULT:
-        problem = "--lam and --head-angle are one range: give one of them"
-        raise click.UsageError(problem, click.get_current_context())
-    low, high = (tilt_of(angle) for angle in head_angles[::-1])
-    return low, high
+    blocks = [(each.bicycle.name, each.changes, front_blocks(own.pareto, over)) for each, _, own in found]
+    save_csv(*of_machines(columns(FRONT, found[0][1].family), blocks), csv_file)
