@@ -45,6 +45,15 @@ def test_python(block, folder, monkeypatch, capsys):
     assert capsys.readouterr().out.splitlines() == expected
 
 
+@pytest.mark.parametrize("ending", [".hdf", ".vtkhdf"])
+def test_what_chooses_by_the_ending(folder, ending):
+    """ParaView does too, and 5.11 knows the first alone."""
+    pyvista = pytest.importorskip("pyvista")
+    link = (folder / "volume").with_suffix(ending)
+    link.hardlink_to(folder / "out" / "quick" / "volume.h5")
+    assert pyvista.read(link).dimensions == (51, 31, 31)
+
+
 def in_node(text, package, folder):
     """What a program prints."""
     node = shutil.which("node")
