@@ -196,5 +196,5 @@ def _path(bicycle: Bicycle, design: tuple[float, float], V: float, t: Floats, mo
     turn, steer, start = math.cos(lam) / bicycle.c, moved.states[1], moved.start
     yaw = turn * (V * moved.once + trail * (steer - start))
     y = V * turn * (V * moved.twice + trail * (moved.once - start * t)) + 0.0  # not -0
-    front = y + bicycle.c * yaw - trail * math.cos(lam) * steer
+    front = y + math.cos(lam) * (V * moved.once - trail * start)  # y + c yaw − trail cos λ steer
     return Motion(V, t, moved.states, yaw, V * t, y, front)

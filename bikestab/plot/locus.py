@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.transforms import offset_copy
 
 from bikestab.bicycle import Bicycle
 from bikestab.model import ExactTable, Floats, Model, exact_table
@@ -32,6 +33,9 @@ _HEAD = 5.2  # of an arrowhead, which is as wide as it is long
 _AROUND = (2.0, 0.0)  # points free around it, if they are
 _SHORT = 24.0  # of a curve without one
 _ABOVE = [(0, 1), (0, -1), (0.6, 1), (-0.6, 1), (0.6, -1), (-0.6, -1), (1, 1), (-1, 1)]  # of real ones
+_ALONG = (0, 0.6, -0.6, 1, -1)
+_LANE = 3.2  # points from the real axis to eigenvalues that would lie on others there
+_COMMON = 0.02  # of the axes' width, that these have in common
 _SIDES = [(1, 1), (1, 0), (1, -1), (0, 1), (0, -1), (-1, 1), (-1, 0), (-1, -1)]
 
 
@@ -47,7 +51,11 @@ def draw_locus(
     left = locus_axes(ax, [modes])
     parts = parts_of(modes)
     drawn = {name: STYLES[name] for name in STYLES if name in {name for name, _, _ in parts}}
-    handles: list[Any] = [entry(name, color=color, lw=width) for name, (color, width) in drawn.items()]
+    lanes = _lanes(parts, ax.get_xlim())
+    handles: list[Any] = [
+        entry(f"{name}{_beside(lanes.get(name, 0.0))}", color=color, lw=width)
+        for name, (color, width) in drawn.items()
+    ]
     handles.append(entry("speed [m/s]", color="0.2", marker=".", ls="none"))
     words = f"λ = {lam:.4g} rad, σ = {sigma:.4g}{remarks(bicycle, model)}; {_stable(table)}{left}"
     set_title(ax, f"{short(bicycle.name)}: root locus for {start:g} to {stop:g} m/s", words)
@@ -56,16 +64,57 @@ def draw_locus(
     room.curve([0, 0], ax.get_ylim())
     for name, s_part, _ in parts:
         color, width = STYLES[name]
-        ax.plot(s_part.real, s_part.imag, color=color, lw=width, solid_capstyle="butt")
-        room.curve(s_part.real, s_part.imag)
-    dots = _dots(ax, room, parts, start, stop)
+        lane = lanes.get(name, 0.0)
+        ax.plot(
+            s_part.real, s_part.imag, color=color, lw=width, solid_capstyle="butt",
+            transform=_shifted(ax, lane),
+        )  # fmt: skip
+        room.curve(s_part.real, s_part.imag + _in_data(ax, room, lane))
+    dots = _dots(ax, room, parts, lanes, start, stop)
     style: dict[str, Any] = {"size": 8, "path_effects": HALO, "zorder": 5}
-    for V_dot, s_dot in dots:
-        sides = _SIDES if s_dot.imag else _ABOVE
-        beside(room, ax, f"{V_dot:g}", s_dot.real, s_dot.imag, sides=sides, **style)
-    for _, s_part, _ in parts:
-        draw_arrowheads(ax, room, s_part)
+    for V_dot, s_dot, lane in dots:
+        sides = _SIDES if s_dot.imag else _ABOVE if not lane else [(x, np.sign(lane)) for x in _ALONG]
+        y = s_dot.imag + _in_data(ax, room, lane)
+        beside(room, ax, f"{V_dot:g}", s_dot.real, y, sides=sides, **style)
+    for name, s_part, _ in parts:
+        draw_arrowheads(ax, room, s_part, lanes.get(name, 0.0))
     return figure
+
+
+def _lanes(parts: Sequence[tuple[str, Any, Floats]], limits: tuple[float, float]) -> dict[str, float]:
+    """How many points above the real axis modes are drawn that would lie on each other there, by name."""
+    spans: dict[str, tuple[float, float]] = {}
+    for name, s, _ in parts:
+        if not s.imag.any():
+            x = np.clip(s.real, *limits)
+            low, high = spans.get(name, (math.inf, -math.inf))
+            spans[name] = min(low, float(x.min())), max(high, float(x.max()))
+    least = _COMMON * (limits[1] - limits[0])
+    common = [
+        name
+        for name in sorted(spans, key=[*STYLES].index)
+        if any(
+            min(high, spans[name][1]) - max(low, spans[name][0]) > least
+            for other, (low, high) in spans.items()
+            if other != name
+        )
+    ]
+    return {name: _LANE * (2 * i - len(common) + 1) for i, name in enumerate(common)}
+
+
+def _beside(lane: float) -> str:
+    return f" (drawn {'above' if lane > 0 else 'below'} the axis)" if lane else ""
+
+
+def _shifted(ax: Axes, lane: float) -> Any:
+    """The data's transform, so many points higher."""
+    figure: Any = ax.figure
+    return offset_copy(ax.transData, figure, 0.0, lane, units="points")
+
+
+def _in_data(ax: Axes, room: Room, lane: float) -> float:
+    low, high = ax.get_ylim()
+    return lane / float(room.size[1]) * (high - low)
 
 
 def sampled(table: ExactTable, start: float, stop: float) -> Modes:
@@ -124,9 +173,13 @@ def parts_of(modes: Modes) -> list[tuple[str, Any, Floats]]:
 
 
 def _dots(
-    ax: Axes, room: Room, parts: list[tuple[str, Any, Floats]], start: float, stop: float
-) -> list[tuple[float, complex]]:
-    """Draw dots at round speeds where these are apart on their curve; those above, which get numbers."""
+    ax: Axes, room: Room, parts: list[tuple[str, Any, Floats]], lanes: dict[str, float],
+    start: float, stop: float,
+) -> list[tuple[float, complex, float]]:  # fmt: skip
+    """Draw dots at round speeds where these are apart on their curve; those above, which get numbers.
+
+    Each with its speed, its eigenvalue, and how many points above this it is drawn.
+    """
     steps = np.outer(10.0 ** np.arange(-6, 6), [1, 2, 5]).ravel()
     step = steps[np.searchsorted(steps, (stop - start) / (_MARKS - 1))]
     speeds = np.arange(np.ceil(start / step), np.floor(stop / step) + 1) * step
@@ -134,24 +187,28 @@ def _dots(
     taken = np.empty((0, 2))
     dots = []
     for V in (speeds[0], speeds[-1], *speeds[1:-1]) if len(speeds) > 1 else speeds:
-        for _, s, values in parts:
+        for name, s, values in parts:
             k = int(np.argmin(np.abs(values - V)))
-            if abs(values[k] - V) > 0.01 * step or not x0 <= s[k].real <= x1:
+            if not values[0] <= V <= values[-1] or not x0 <= s[k].real <= x1:
                 continue
-            place = room.at(s[k].real, s[k].imag)
+            lane = lanes.get(name, 0.0)
+            place = room.at(s[k].real, s[k].imag) + np.array([0.0, lane])
             if (np.hypot(*(taken - place).T) < _DOTS).any():
                 continue
             taken = np.vstack([taken, place])
-            ax.plot(s[k].real, s[k].imag, ".", color="0.2", ms=5, zorder=4)
-            room.mark(s[k].real, s[k].imag, 3)
+            ax.plot(s[k].real, s[k].imag, ".", color="0.2", ms=5, zorder=4, transform=_shifted(ax, lane))
+            room.mark(s[k].real, s[k].imag + _in_data(ax, room, lane), 3)
             if s[k].imag >= 0:
-                dots.append((float(V), complex(s[k])))
+                dots.append((float(V), complex(s[k]), lane))
     return dots
 
 
-def draw_arrowheads(ax: Axes, room: Room, s: Any) -> None:
-    """Arrowheads along a curve, the way it goes as the speed grows, where they cover no dot and no number."""
-    places = room.at(s.real, s.imag)
+def draw_arrowheads(ax: Axes, room: Room, s: Any, lane: float = 0.0) -> None:
+    """Arrowheads along a curve, the way it goes as the speed grows, where they cover no dot and no number.
+
+    The curve is drawn ``lane`` points higher.
+    """
+    places = room.at(s.real, s.imag) + np.array([0.0, lane])
     inside = np.all((places > 4) & (places < room.size - 4), axis=1)
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T) * (inside[1:]))])
     if length[-1] < _SHORT:

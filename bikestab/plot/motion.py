@@ -18,6 +18,8 @@ _REAR, _FRONT = Line("#0072b2", "-"), Line("#d55e00", (0, (5, 1.5)))  # and of w
 _LARGE = (
     2 * LARGE
 )  # rad: of several machines one that moves more leaves the picture, not to flatten the others
+_STANDING = 0.5  # m, or rad: what is drawn around a machine that does not move
+_LEAST = 1e-300  # of less no axis is made
 _LEFT = "0.92"  # where the linear model has been left
 Drawn = tuple[str, Floats, Floats, Line]
 
@@ -40,7 +42,7 @@ def draw_motion(name: str, found: Motion, until: float, push: Mapping[str, float
     road.set_ylabel("to the right [m]")
     left = leaves(found)
     if left is not None:
-        for ax, place in ((top, left), (road, found.V * left)):
+        for ax, place in ((top, left), (road, found.V * left)) if found.V else ((top, left),):
             ax.axvspan(place, ax.get_xlim()[1], color=_LEFT, lw=0, zorder=0)
     words = f"{short(name)} at {found.V:g} m/s after a push: {_pushed(push)}"
     set_title(top, words, *_doubts(left, float(found.t[-1]), until))
@@ -89,8 +91,14 @@ def _curves(ax: Axes, drawn: Sequence[Drawn], *, down: bool = False) -> None:
     for _, x, y, line in drawn:
         ax.plot(x, y, color=line.color, ls=line.ls, lw=1.8)
     ax.axhline(0, color="0.5", lw=0.7, zorder=1)
-    ax.set_xlim(0.0, max(float(x[-1]) for _, x, _, _ in drawn))
-    low, high = ax.get_ylim()
+    right = max(float(x[-1]) for _, x, _, _ in drawn)
+    if not right:  # no way: marks, beside which names have room
+        for _, x, y, line in drawn:
+            ax.plot(x[-1:], y[-1:], "o", color=line.color, ms=6)
+    ax.set_xlim(0.0 if right else -_STANDING, right or _STANDING)
+    low, high = min(0.0, *(y.min() for _, _, y, _ in drawn)), max(0.0, *(y.max() for _, _, y, _ in drawn))
+    margin = 0.05 * (high - low)
+    low, high = (low - margin, high + margin) if margin > _LEAST else (-_STANDING, _STANDING)
     ax.set_ylim((high, low) if down else (low, high))  # the road as seen from above
     ticks_inside(ax)
     label_curves(ax, [Curve(name, x, y, line.color) for name, x, y, line in drawn])

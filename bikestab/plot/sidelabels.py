@@ -129,8 +129,11 @@ def _write(
     height = figure.get_figheight() * ax.get_position().height  # before the layout, which changes little
     right = at[:, 0] > _RIGHT
     beside_axes = np.flatnonzero(right).tolist()
-    lines = np.array([_LINE / height * (1 + names[i].count("\n")) for i in beside_axes])
-    places = spread(np.clip(at[right, 1], 0, 1), lines)
+    inches = np.array([_LINE * (1 + names[i].count("\n")) for i in beside_axes])
+    if inches.sum() > height:  # all names have room beside the axes
+        figure.set_figheight(figure.get_figheight() * inches.sum() / height)
+        height = inches.sum()
+    places = spread(np.clip(at[right, 1], 0, 1), inches / height)
     for i, place in zip(beside_axes, places, strict=True):
         end = float(np.clip(at[i, 0], 0, 1)), float(np.clip(at[i, 1], 0, 1))
         tie = {"arrowstyle": "-", "color": colors[i], "lw": 0.8, "ls": ":", "shrinkA": 1, "shrinkB": 0}
@@ -153,7 +156,8 @@ def _write(
 def spread(wanted: Floats, heights: Floats | float) -> Floats:
     """Places near those that are wanted, in their order, of boxes of these heights that do not overlap.
 
-    Least squares: boxes that would overlap become blocks, each in the middle of where its boxes would be.
+    Least squares: boxes that would overlap become blocks, each in the middle of where its boxes would be, or
+    as near to it as they all are from 0 to 1, if they can.
     """
     order = np.argsort(wanted, kind="stable")
     half = 0.5 * np.broadcast_to(heights, wanted.shape)[order]
@@ -165,9 +169,10 @@ def spread(wanted: Floats, heights: Floats | float) -> Floats:
             total, number = blocks.pop()
             blocks[-1][0] += total
             blocks[-1][1] += number
-    means = [np.full(int(number), total / number) for total, number in blocks]
     places = np.empty(len(wanted))
-    places[order] = np.concatenate(means or [np.empty(0)]) + above
+    if blocks:
+        means = np.concatenate([np.full(int(number), total / number) for total, number in blocks])
+        places[order] = np.clip(means, half[0], max(1 - half[-1] - above[-1], half[0])) + above
     return places
 
 

@@ -7,6 +7,7 @@ import gc
 import importlib
 import os
 import sys
+import warnings
 from contextlib import suppress
 from pathlib import Path
 
@@ -78,6 +79,10 @@ def main(program: str = "bikestab") -> None:
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices are 4 × 4, and each thread takes 30 MB
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it looks for them in all that is installed
+    if not (
+        sys.warnoptions or sys.flags.dev_mode or any(action == "error" for action, *_ in warnings.filters)
+    ):
+        warnings.simplefilter("ignore")  # numpy's and matplotlib's tell a user nothing
     gc.set_threshold(_GARBAGE)
     atexit.register(gc.freeze)  # the exit is 10 ms sooner if it looks for no garbage
     if os.environ.get(COMPLETE):

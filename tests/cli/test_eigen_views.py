@@ -396,3 +396,63 @@ def test_a_value_that_cannot_be_is_told_by_the_name_that_was_typed(bikestab, arg
     assert (code, out) == (2, "")
     assert words in " ".join(err.split())
     assert "Warning" not in err
+
+
+def test_real_eigenvalues_that_would_lie_on_each_other_are_side_by_side():
+    bike = bs.Bicycle.preset("kooijman2011")
+    figure = draw_locus(bike, bike.lam, bike.sigma, 0, 10)
+    figure.draw_without_rendering()
+    (ax,) = figure.axes
+    dots = [line for line in ax.lines if line.get_marker() == "."]
+    places = np.array([line.get_transform().transform(line.get_xydata()[0]) for line in dots])
+    axis = ax.transData.transform((0, 0))[1]
+    real = [
+        (line.get_xdata()[0], y) for line, (_, y) in zip(dots, places, strict=True) if not line.get_ydata()[0]
+    ]
+    below = sorted(x for x, y in real if y < axis - 1)
+    above = sorted(x for x, y in real if y > axis + 1)
+    s = {V: np.sort(bs.eigenvalues(bike, float(V)).real) for V in range(11)}
+    capsize = sorted(s[V][1] for V in (0, 1, 2, 5, 6, 7, 8, 9, 10))
+    assert all(min(abs(x - value) for x in below) < 0.1 for value in capsize)
+    assert above == pytest.approx([s[1][0], s[0][0]], abs=0.1)
+    numbers = {}
+    for text in ax.texts:
+        if text.get_text():
+            numbers.setdefault(text.get_window_extent().y0 > axis, []).append(text.get_text())
+    assert sorted(numbers[True])[:4] == ["0", "0", "0", "1"]  # castering, and the real pair at rest twice
+    assert {"7", "8", "9", "10"} < {*numbers[False]}
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "capsize (drawn below the axis)" in labels
+    bench = draw_locus(BIKE, BIKE.lam, BIKE.sigma, 0, 10)
+    assert "capsize" in [text.get_text() for text in bench.legends[0].get_texts()]
+
+
+@pytest.mark.parametrize(
+    "args",
+    [
+        "eigen --V 0:1e6:3", "eigen --V 0:1e-9:3", "eigen --V 5:5.000000000001:3 --locus",
+        "eigen --V 0:1e6:3 --locus", "eigen --over delta=0:1e-12:3", "eigen --over k_phi=-1e9:1e9:3 --at 5",
+        "eigen --over lam=-1.57:1.57:3 --at 5", "eigen --shapes --at 1e6",
+        "eigen --push roll_rate=0.5 --at 0", "eigen --push roll=0 --at 0", "eigen --push roll=1e-12",
+        "eigen --push roll=1e12 --at 0", "eigen --push steer=1e-305 --at 3",
+        "eigen --push roll=0.1 --at 0 --set mB=60,85", "eigen --V 0:1e6:3 --set mB=60,85",
+        "vrange --over delta=0:1e-12:3", "vrange --sigma -99:99:3", "vrange --lam 0.1",
+        "vrange --set mB=60,60.0000000001",
+    ],
+)  # fmt: skip
+def test_pictures_of_extreme_numbers_warn_of_nothing(bikestab, args):
+    """Warnings are errors in these tests; each axis has a range, and the ends of it are numbers."""
+    assert bikestab(*args.split(), *BENCHMARK, "-o", "a.png") == (0, "a.png\n", "")
+
+
+def test_a_machine_that_stands_leaves_no_rounding_on_the_road():
+    push = {"steer": 0.1}
+    found = motion(BIKE, 0.0, push, np.linspace(0, 0.5, 51))
+    assert set(found.y.tolist()) == {0.0}
+    assert np.ptp(found.y_front) == 0
+    assert found.y_front[0] == pytest.approx(-BIKE.c * BIKE.sigma * np.cos(BIKE.lam) * 0.1, rel=1e-15)
+    road = draw_motion("own", motion(BIKE, 0.0, {"roll_rate": 0.5}, np.linspace(0, 0.5, 51)), 0.5, push).axes[
+        1
+    ]
+    assert road.get_xlim() == (-0.5, 0.5)
+    assert road.get_ylim() == (0.5, -0.5)

@@ -6,6 +6,7 @@ import resource
 import shutil
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import pytest
@@ -139,6 +140,18 @@ def test_no_file_becomes_stderr():
     done = shell('"$0" eigen --lam 0.2 --sigma 0.08 --csv a.csv 2>&- >&-; cat a.csv')
     assert done.stdout.startswith(b"V,branch,name,re,im\n")
     assert b"warning" not in done.stdout
+
+
+def test_warnings_of_packages_are_not_told(bikestab, monkeypatch):
+    def told(*_):
+        warnings.warn("of numpy", RuntimeWarning, stacklevel=1)
+        return "a table"
+
+    monkeypatch.setattr("bikestab_cli.vrange.told_one", told)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.resetwarnings()  # as outside of tests
+        assert bikestab("vrange", "--bicycle", "meijaard2007") == (0, "a table\n", "")
+    assert not caught
 
 
 # --- limits

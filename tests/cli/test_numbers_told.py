@@ -107,7 +107,8 @@ def test_the_largest_that_is_named_is_taken():
         assert caught.value.hint == f"allowed: {text}"
 
 
-def test_in_a_file():
+def test_in_a_file(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
     text = """\
 bicycle: {w: 1e400, c: 1e-400, mB: -1e400kg, rR: .inf}
 title: 1e400

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.text import Text
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
@@ -119,6 +120,8 @@ def test_labels_of_several_rows_do_not_overlap(boxes):
     half = 0.5 * heights[order]
     assert np.all(np.diff(places[order]) >= half[1:] + half[:-1] - 1e-12)
     assert places.mean() == pytest.approx(wanted.mean(), abs=0.5)
+    assert min(places[order] - half) >= -1e-12  # in the axes, for all of them have room there
+    assert max(places[order] + half) <= 1 + 1e-12
 
 
 @given(st.lists(st.floats(0, 1), max_size=12))
@@ -129,3 +132,19 @@ def test_labels_are_apart_and_in_order(wanted):
     far = np.diff(np.array(wanted)[order], prepend=-math.inf, append=math.inf)
     alone = (far[:-1] > 0.5) & (far[1:] > 0.5)  # with room for all others
     assert places[order][alone] == pytest.approx(np.array(wanted)[order][alone], abs=0.25)
+
+
+def test_as_many_names_as_there_may_be_are_in_the_picture():
+    bike = Bicycle.preset("meijaard2007")
+    own = [bike.replaced({"mB": 60 + i}) for i in range(MOST)]
+    machines = [(f"machine {i}", each, each.lam, each.sigma, "refined") for i, each in enumerate(own)]
+    figure = draw_growth(machines, 0, 10)
+    figure.draw_without_rendering()
+    (ax,) = figure.axes
+    named = [text for text in ax.texts if text.get_text().startswith("machine")]
+    boxes = [Text.get_window_extent(text) for text in named]  # without the tie to the curve
+    assert len(boxes) == MOST
+    assert min(box.y0 for box in boxes) > 0
+    assert max(box.y1 for box in boxes) < figure.bbox.height
+    bottoms = np.sort([box.y0 for box in boxes])
+    assert np.diff(bottoms).min() > 0.9 * max(box.height for box in boxes)
