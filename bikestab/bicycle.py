@@ -17,7 +17,7 @@ from bikestab.errors import InputError, Mistakes, nearest
 from bikestab.gains import GAINS
 from bikestab.keyed import keyed
 from bikestab.limits import check_product, check_tilt, check_trail, check_value
-from bikestab.notation import MEIJAARD, superseded, two_parts
+from bikestab.notation import MEIJAARD, of_bodies, of_values, superseded, two_parts
 from bikestab.plausible import warnings_of
 from bikestab.presets import preset_names, preset_text
 from bikestab.rider import RIDER, left_behind
@@ -133,10 +133,26 @@ class Bicycle:
         return {name: value for name, value in self.numbers().items() if value is not None}
 
     def replaced(self, values: Mapping[str, float]) -> Bicycle:
-        """A copy with other values of some parameters in its notation; InputError names the parameter."""
+        """A copy with other values of some parameters in its notation; InputError names the parameter.
+
+        ``sigma`` stands for the trail in any.
+        """
+        if self.bodies and "sigma" in values:
+            if "trail" in values:
+                problem = "sigma and trail are both given"
+                raise InputError(problem, key=("sigma",), hint="give one of them")
+            wheelbase = values.get("w", self.c)
+            own = {name: value for name, value in values.items() if name != "sigma"}
+            try:
+                return self.replaced({**own, "trail": values["sigma"] * wheelbase})
+            except InputError as error:
+                raise error.renamed({"trail": "sigma"}) from None
         gone = superseded(values, "c" if self.bodies else "sigma") | values.keys()
         kept = {k: v for k, v in self.given.items() if k not in gone}
-        bicycle = Bicycle.from_mapping({**kept, **values, "source": self.source}, name=self.name)
+        try:
+            bicycle = Bicycle.from_mapping({**kept, **values, "source": self.source}, name=self.name)
+        except InputError as error:
+            raise of_values(error, values) from None
         deviations = {k: sd for k, sd in self.deviations.items() if k not in gone}
         correlations = {pair: r for pair, r in self.correlations.items() if not {*pair} & gone}
         note = left_behind(self.given, values)
@@ -177,7 +193,10 @@ class Bicycle:
         if not meijaard:
             own = {key: value for key, value in numbers.items() if key not in GAINS}
             return cls(**own, name=name, source=source, gains=gains)  # type: ignore[arg-type]  # the keys were checked
-        bicycle = cls(**two_parts(numbers), name=name, source=source, gains=gains)
+        try:
+            bicycle = cls(**two_parts(numbers), name=name, source=source, gains=gains)
+        except InputError as error:
+            raise of_bodies(error, numbers) from None
         object.__setattr__(bicycle, "bodies", numbers)
         return bicycle
 

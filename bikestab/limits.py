@@ -131,7 +131,9 @@ def require(given: Mapping[str, float], required: Sequence[str], meanings: Mappi
 def check_value(key: str, value: float, check: str, meaning: str) -> None:
     """Raise InputError unless a parameter is of the sign wanted, within MOST, and not too small."""
     if abs(value) > MOST:
-        raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: up to {MOST:g}")
+        digits = 17 if f"{value:g}" == f"{MOST:g}" else 6
+        problem = f"{value:.{digits}g} is out of range"
+        raise InputError(problem, key=(key,), hint=f"allowed: up to {MOST:g}")
     if key in SMALL and 0 < abs(value) < LEAST:
         raise InputError(f"{value:g} is out of range", key=(key,), hint=f"allowed: 0, or from {LEAST:g} on")
     if not allowed(key, value, check):

@@ -198,12 +198,9 @@ def _refusal(bicycle: Bicycle, samples: Mapping[str, _Floats], refused: NDArray[
     try:
         bicycle.replaced(values)
     except InputError as error:
-        name = str(error.key[0]) if error.key else ""
-        name = "R" if name in ("R1", "R2") and "R" in values else name
-        problem = error.problem if name in values else f"{name}: {error.problem}"
         return InputError(
-            f"{len(refused)} of {number} samples {are}; the first has {first}: {problem}",
-            key=(name,) if name in values else (),
+            f"{len(refused)} of {number} samples {are}; the first has {first}: {error.problem}",
+            key=error.key,
             hint=f"{error.hint}; take a narrower distribution, or uniform: [low, high]",
         )
     raise AssertionError("the limits of many machines are not those of one")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+import re
 from collections.abc import Iterable, Mapping
 from functools import reduce
 from typing import Any
@@ -55,6 +56,7 @@ CHECKS = {"w": "positive", "g": "positive"} | {
 }
 CHECKS |= RIDER_CHECKS
 PARTS = (("rear", ("mR", "mB", "rider.m")), ("front", ("mH", "mF")))
+_SAME = {"R1": "rR", "C1": "IRyy", "R2": "rF", "C2": "IFyy"}
 INERTIAS = ("IB", "IH", "rider.I")  # of bodies that have a product of inertia
 
 
@@ -79,8 +81,8 @@ def two_parts(n: Mapping[str, float]) -> dict[str, Any]:
     mistakes = Mistakes()
     for key, value in n.items():
         with mistakes.kept():
-            if key in CHECKS:
-                check_value(key, value, CHECKS[key], MEIJAARD[key] if key in MEIJAARD else RIDER[key])
+            if key in CHECKS or key in MEIJAARD:
+                check_value(key, value, CHECKS.get(key, ""), MEIJAARD.get(key) or RIDER[key])
             if key == "lam":
                 check_tilt(value, ("lam",))
     mistakes.tell()
@@ -94,6 +96,52 @@ def two_parts(n: Mapping[str, float]) -> dict[str, Any]:
             hint = f"allowed: {' + '.join(masses)} > 0"
             raise InputError(f"the {part} part has no mass", key=(bodies[1],), hint=hint)
     return {**reduced(n), "lam": n["lam"], "sigma": n["c"] / n["w"], "remarks": tuple(_body_remarks(n))}
+
+
+def of_bodies(error: InputError, n: Mapping[str, float]) -> InputError:
+    """Mistakes in the parameters of the two parts, told of as of the 25 in ``n`` that they come from."""
+
+    def told(mistake: InputError) -> InputError:
+        key = str(mistake.key[0]) if mistake.key else ""
+        if key in n or not key or mistake.place:
+            return mistake
+        if key == "sigma" or key in _SAME:
+            problem, hint = (
+                re.sub(r"\b[CR][12]\b", lambda found: _SAME[found[0]], text)
+                for text in (mistake.problem, mistake.hint)
+            )
+            return InputError(problem, key=(_SAME.get(key, "c"),), hint=hint)
+        part, bodies = PARTS["12".index(key[-1])]
+        most = max((name for name in n if _body(name) in bodies), key=lambda name: abs(n[name]))
+        problem = f"{n[most]:g} is too much: the {part} part's {key} = {mistake.problem}"
+        return InputError(problem, key=(most,), hint=mistake.hint)
+
+    return error.each(told)
+
+
+def of_values(error: InputError, values: Mapping[str, float]) -> InputError:
+    """Mistakes told of as of the ``values`` that were put in; what else a machine has was right before."""
+
+    def told(mistake: InputError) -> InputError:
+        key = str(mistake.key[0]) if mistake.key else ""
+        if not key or key in values or mistake.place:
+            return mistake
+        if "R" in values and key in ("R1", "R2"):
+            return InputError(mistake.problem, key=("R",), hint=mistake.hint)
+        names = [*values]
+        given = ", ".join(f"{name} = {value:g}" for name, value in values.items())
+        problem = f"with {given}: {mistake.problem}"
+        if key not in ("lam", "sigma", "c"):
+            one = f"{values[names[0]]:g} does" if len(names) == 1 else f"{given} do"
+            problem = f"{one} not go with {key}: {mistake.problem}"
+        return InputError(problem, key=(names[0],), hint=mistake.hint)
+
+    return error.each(told)
+
+
+def _body(name: str) -> str:
+    """The mass of the body that a parameter is of."""
+    return "rider.m" if name.startswith("rider.") else f"m{name[1:2]}"
 
 
 def reduced(n: Mapping[str, Any]) -> dict[str, Any]:

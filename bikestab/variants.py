@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
@@ -12,7 +13,6 @@ from bikestab.errors import InputError, nearest
 from bikestab.geometry import offset_of, tilt_from, trail_from
 from bikestab.limits import check_tilt, check_trail
 from bikestab.machines import Machines
-from bikestab.notation import superseded
 from bikestab.units import as_built
 
 TILT = {"lam": "steering-axis tilt [rad]", "head_angle": "head angle, 90° − tilt [rad]"}
@@ -132,23 +132,9 @@ def check_names(bicycle: Bicycle, names: Mapping[str, str]) -> None:
 
 
 def check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
-    """Raise InputError, with a parameter's name as key, for values that no machine can have.
-
-    Where these leave another parameter with a value it cannot have, the mistake tells what they are.
-    """
-    try:
-        _check_values(bicycle, values)
-    except InputError as error:
-        if not error.key or error.key[0] in values:
-            raise
-        given = ", ".join(f"{name} = {value:g}" for name, value in values.items())
-        problem = f"with {given}: {error.problem}"
-        raise InputError(problem, key=(next(iter(values)),), hint=error.hint) from None
-
-
-def _check_values(bicycle: Bicycle, values: Mapping[str, float]) -> None:
+    """Raise InputError, with the parameter's name as key, for values that no machine can have."""
+    _machine_of(bicycle, values)
     fronts = {front_of(bicycle, name): name for name in values}
-    _replaced(bicycle, values, {})
     if "offset" in fronts and "trail" in fronts:
         radius = float(varied(bicycle, values)[0].R2)
         if not abs(values["offset"]) < radius:
@@ -166,22 +152,23 @@ def machine_at(bicycle: Bicycle, values: Mapping[str, float]) -> tuple[Bicycle, 
     It is one of two parts where some are symbols that the notation does not have. Raises InputError, with the
     parameter's name as key, for values that no machine can have.
     """
+    machine = _machine_of(bicycle, values)
     _, tilt, trail = varied(bicycle, values)
     lam, sigma = float(tilt), float(trail)
-    return _replaced(bicycle, values, {"lam": lam, "sigma": sigma}), lam, sigma
+    if bicycle.bodies is not None and machine.bodies is None:
+        return dataclasses.replace(machine, lam=lam, sigma=sigma), lam, sigma
+    if machine is bicycle:
+        return machine, lam, sigma
+    return machine.measured(bicycle.deviations, bicycle.correlations, machine.notes), lam, sigma
 
 
-def _replaced(bicycle: Bicycle, values: Mapping[str, float], front: Mapping[str, float]) -> Bicycle:
-    """The machine with what is not of the front in these values; one of two parts with this ``front``."""
+def _machine_of(bicycle: Bicycle, values: Mapping[str, float]) -> Bicycle:
+    """The machine with these values, those of tilt, trail and offset left out."""
     rest = {name: value for name, value in values.items() if not front_of(bicycle, name)}
     given = {name: value for name, value in rest.items() if name in bicycle.notation}
     parts = {name: value for name, value in rest.items() if name not in given}
     machine = bicycle.replaced(given) if given else bicycle
-    if not parts:
-        return machine.measured(bicycle.deviations, bicycle.correlations, machine.notes)
-    gone = superseded(parts, "sigma")  # R1 and R2 by R
-    own = {name: value for name, value in machine.numbers().items() if name not in gone}
-    return Bicycle.from_mapping({**own, **front, **parts}, name=bicycle.name)
+    return Bicycle.from_mapping(machine.numbers(), name=bicycle.name).replaced(parts) if parts else machine
 
 
 def own_value(bicycle: Bicycle, name: str) -> float | None:

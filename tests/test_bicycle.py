@@ -207,6 +207,7 @@ def test_part_without_mass(bodies, part):
 @pytest.mark.parametrize(("base", "key"), [(PAPER, "m1"), (BENCHMARK, "mB")])
 def test_no_number(base, key, value):
     assert "allowed: a number" in refused(base, key, **{key: value}).hint
+    assert refused(base, key, **{key: 10**400}).hint == "allowed: up to 1e+09 kg"
 
 
 @pytest.mark.parametrize("value", ["1e400", 10**400])

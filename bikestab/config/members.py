@@ -152,17 +152,8 @@ def members(machine: Bicycle, sweep: Mapping[str, NumberAxis]) -> list[Member]:
         try:
             machines.append(Member(values, machine.replaced(values) if values else machine))
         except InputError as error:
-            raise _of_sweep(error, values) from None
+            raise InputError(error.problem, key=("sweep", *error.key), hint=error.hint) from None
     return machines
-
-
-def _of_sweep(error: InputError, values: Mapping[str, float]) -> InputError:
-    name = str(error.key[0]) if error.key else ""
-    name = "R" if name in ("R1", "R2") and "R" in values else name
-    if name in values:
-        return InputError(error.problem, key=("sweep", name), hint=error.hint)
-    point = ", ".join(f"{name} = {value:g}" for name, value in values.items())
-    return InputError(f"with {point}: {name}: {error.problem}", key=("sweep",), hint=error.hint)
 
 
 def doubts_of(machines: list[Member], ensemble: Ensemble | None) -> list[str]:

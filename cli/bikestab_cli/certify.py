@@ -143,9 +143,10 @@ def command(
         bicycle = load_bicycle(bicycle_name or DEFAULT_BICYCLE, delta)
         ends = _of_options(bicycle, given, speed)
     edges = {name: _edges(name, pair, cells) for name, pair in ends.items()}
-    with told_as_options():
+    tolerances = tolerances_of(texts, bicycle)
+    with told_as_options(**dict.fromkeys(tolerances, "--tolerance")):
         sides = edges["lam"], edges["sigma"], edges["V"]
-        box = box_of(bicycle, *sides, model or "refined", tolerances_of(texts, bicycle))
+        box = box_of(bicycle, *sides, model or "refined", tolerances)
     proof = _proof(box, jobs, work, certificate, quiet)
     if certificate:
         from bikestab.files import written

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
 
 F = TypeVar("F", bound=Callable[..., Any])
-_OF_PARAMETERS = ("--over", "--free")  # options that name one, of which a mistake is told
+_OF_PARAMETERS = ("--over", "--free", "--tolerance")  # options that name one, of which a mistake is told
 DEFAULT_BICYCLE = "dikarev1981"
 
 
@@ -189,12 +189,16 @@ def told_as_options(**others: str) -> Iterator[None]:
             problem = f"{error.problem}: give {options}, for example {' '.join(typed)}"
             raise click.UsageError(problem, click.get_current_context()) from None
         option, problem = others.get(name, f"--{name.replace('_', '-')}"), error.problem
-        if option in _OF_PARAMETERS:
+        known = name in others or any(
+            option in param.opts for param in click.get_current_context().command.params
+        )
+        if option in _OF_PARAMETERS or not known:
             problem = problem if name in ("x", "y") else f"{name}: {problem}"
         elif not hint.startswith("known: "):  # parameters, and no arguments
             for argument, its_option in others.items():
                 hint = re.sub(rf"(?<![\w-]){re.escape(argument)}\b", its_option, hint)
-        raise click.BadParameter(f"{problem}; {hint}".strip("; "), param_hint=option) from None
+        problem = f"{problem}; {hint}".strip("; ")
+        raise click.BadParameter(problem, param_hint=option if known else None) from None
 
 
 @contextmanager

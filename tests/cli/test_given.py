@@ -106,3 +106,35 @@ def test_values_that_differ_late_have_labels_that_differ(bikestab):
     assert "mB=85.0000002" in out
     _, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=187lb,85")
     assert "mB=84.8218 " in out
+
+
+M = "--bicycle meijaard2007"
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (f"vrange {M} --over w=0:2:3", "--over: w: 0 is not positive"),
+        (f"eigen {M} --over w=0:2:5 --at 5", "--over: w: 0 is not positive"),
+        (f"design {M} --over w=0:2 --over mB=60:80", "--over: w: 0 is not positive"),
+        (f"design {M} --free w=0:2 --free mB=60:80", "--free: w: 0 is not positive"),
+        (
+            f"certify {M} --lam 0.3 --sigma 0.08 --V 4:5 --tolerance w=1+-1",
+            "--tolerance: w: 0 is not positive",
+        ),
+        (f"sensitivity {M} --set w=0", "--set: w: 0 is not positive"),
+        (f"vrange {M} --set mB=1e-5,1e9", "--set: mB: 1e+09 is too much: the rear part's m1 = 1000000002 is"),
+        (f"eigen {M} --over rF=0:0.5:5 --at 5", "--over: rF: rF = 0 (a skate) cannot spin, but IFyy = 0.28"),
+        (f"eigen {M} --over IBxz=0:20:5 --at 5", "allowed: |IBxz| <= 5.07543"),
+        (f"vrange {M} --over delta=-1:3:3", "--over: delta: -1 is not non-negative"),
+        (f"vrange {M} --over trail=0:200:3", "--over: trail: a trail of 196.078 wheelbases"),
+        (f"eigen {M} --over head_angle=0:1:3 --at 5", "--over: head_angle: a steering axis tilted by 1.5708"),
+        (f"sensitivity {M} --lam 2", "--lam: a steering axis tilted by 2 rad"),
+    ],
+)
+def test_what_cannot_be_is_told_of_by_its_option_and_name(bikestab, words, told):
+    """In one message, without a warning of numpy."""
+    code, out, err = bikestab(*words.split())
+    assert (code, out, err.count("\n")) == (2, "", 2)
+    assert err.startswith("error: Invalid value for --")
+    assert told in err

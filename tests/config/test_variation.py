@@ -227,11 +227,11 @@ def test_a_bad_override_is_quoted(override, expected):
 
 def test_a_parameter_that_makes_another_impossible():
     assert message(MEIJAARD + "sweep: {IBxx: [0.25, 9]}\n") == (
-        "scan.yaml, line 6: sweep: with IBxx = 0.25: IBxz: |2.4| is more than √(IBxx IBzz) = 0.83666\n"
-        "allowed: |IBxz| <= 0.83666 kg m²"
+        "scan.yaml, line 6: sweep.IBxx: 0.25 does not go with IBxz: "
+        "|2.4| is more than √(IBxx IBzz) = 0.83666\nallowed: |IBxz| <= 0.83666 kg m²"
     )
     assert message(MEIJAARD + "ensemble: {IBxx: {uniform: [0.1, 0.2]}, samples: 7}\n").startswith(
-        "scan.yaml, line 6: ensemble: 7 of 7 samples are no machines; the first has IBxx = 0.1"
+        "scan.yaml, line 6: ensemble.IBxx: 7 of 7 samples are no machines; the first has IBxx = 0.1"
     )
 
 
