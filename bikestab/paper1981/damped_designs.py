@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,7 +63,7 @@ def relative(now: float | None, before: float | None) -> float | None:
 
 
 def _single_design(bicycle: Bicycle, lam: float, sigma: float, deltas: tuple[float, ...]) -> DampedDesign:
-    without, *sweep = _ends(bicycle, lam, sigma, (0.0, *deltas))
+    without, *sweep = first_intervals(bicycle, lam, sigma, (0.0, *deltas))
     b1 = float(coefficients(bicycle, lam, sigma).b1.value)
     V1, V2 = ([relative(getattr(row, key), getattr(without, key)) for row in sweep] for key in ("V1", "V2"))
     onset = None if without.V1 else _onset(bicycle, lam, sigma, deltas[-1])
@@ -74,7 +75,7 @@ def _single_design(bicycle: Bicycle, lam: float, sigma: float, deltas: tuple[flo
         V1_marked_from=claims.first_marked(deltas, V1) if without.V1 else None,
         V2_marked_from=claims.first_marked(deltas, V2) if without.V2 else None,
         stable_from=onset,
-        at_onset=_ends(bicycle, lam, sigma, (onset * (1 + 1e-9),))[0] if onset else None,
+        at_onset=first_intervals(bicycle, lam, sigma, (onset * (1 + 1e-9),))[0] if onset else None,
         kinematic_damping=b1 * without.V1 / bicycle.c if without.V1 else None,
     )
 
@@ -86,7 +87,7 @@ def _onset(bicycle: Bicycle, lam: float, sigma: float, most: float) -> float | N
     return None if np.isnan(lowest) else lowest
 
 
-def _ends(bicycle: Bicycle, lam: float, sigma: float, deltas: tuple[float, ...]) -> list[Ends]:
+def first_intervals(bicycle: Bicycle, lam: float, sigma: float, deltas: Sequence[float]) -> list[Ends]:
     """The first stable interval with each δ."""
     machines = Machines.varied(bicycle, {"delta": np.array(deltas)}, (len(deltas),))
     intervals = intervals_of(characteristic_table(machines, lam, sigma))

@@ -10,6 +10,8 @@ from bikestab.bicycle import Bicycle
 from bikestab.family import Family
 from bikestab.model import characteristic_table
 from bikestab.paper1981.box import LAM, SIGMA, V
+from bikestab.paper1981.damping import damping
+from bikestab.paper1981.pictures.damping import draw_damping
 from bikestab.paper1981.pictures.machine import PITCH, draw_machine
 from bikestab.paper1981.pictures.places import PLACES
 from bikestab.paper1981.pictures.ticks import oriented
@@ -110,3 +112,17 @@ def test_the_frame_s_lengths_are_those_of_the_printed_block():
     d = bicycle.h2 * np.sin(lam) + (bicycle.l2 - bicycle.c * (1 + sigma)) * np.cos(lam)
     assert bicycle.l2 == pytest.approx(L * np.cos(PITCH) + d * np.cos(lam) - d1 * np.sin(lam))
     assert bicycle.h2 == pytest.approx(bicycle.R1 - L * np.sin(PITCH) + d * np.sin(lam) + d1 * np.cos(lam))
+
+
+def test_curves_against_damping_are_finer_than_the_study(bicycle):
+    """Through the study's points, exactly, and with many between them."""
+    numbers = damping(bicycle, 6, (0.01, 0.1, 1.0))
+    left, right = draw_damping(bicycle, numbers).axes
+    curves = {line.get_label(): line for line in left.lines if line.get_linewidth() == 1.8}
+    for design in numbers.single_designs:
+        delta, V1 = curves[f"λ = {design.lam:.2f}, σ = {design.sigma:.2f}"].get_data()
+        assert len(delta) >= 200
+        for row in design.sweep:
+            near = np.interp(row.delta, delta, V1)
+            assert near == pytest.approx(np.nan if row.V1 is None else row.V1, abs=2e-3, nan_ok=True)
+    assert all(len(line.get_xdata()) == 3 for line in right.lines if line.get_marker() == "o")

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bikestab.bicycle import Bicycle
 from bikestab.paper1981.box import V
 from bikestab.paper1981.claims import THRESHOLDS
-from bikestab.paper1981.damped_designs import DampedDesign
+from bikestab.paper1981.damped_designs import first_intervals
 from bikestab.paper1981.damping import Damping
 from bikestab.paper1981.pictures.places import TITLE, place
 from bikestab.plot.axes import HALO, LABELS
@@ -25,6 +26,7 @@ _STYLES: tuple[Any, ...] = (
     (0, (8, 1, 1, 1, 1, 1)),
     (0, (2, 2)),
 )
+_SAMPLES = 200  # of each design's curve
 _COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9")  # Okabe, Ito
 
 
@@ -33,7 +35,7 @@ def draw_damping(bicycle: Bicycle, numbers: Damping) -> Figure:
     """V1 and V2 of single designs, and the region's measures, against δ."""
     figure = Figure(figsize=(11, 4.9))
     left, right = figure.subplots(1, 2)
-    _single_designs(left, numbers.single_designs)
+    _single_designs(left, bicycle, numbers)
     _measures(right, numbers)
     for ax, where in ((left, "upper left"), (right, "lower right")):
         ax.set(
@@ -53,11 +55,11 @@ def draw_damping(bicycle: Bicycle, numbers: Damping) -> Figure:
     return figure
 
 
-def _single_designs(ax: Axes, designs: list[DampedDesign]) -> None:
-    for design, colour, style in zip(designs, _COLOURS, _STYLES, strict=True):
-        rows = [*([design.at_onset] if design.at_onset else []), *design.sweep]
-        rows.sort(key=lambda row: row.delta)
-        delta = [row.delta for row in rows]
+def _single_designs(ax: Axes, bicycle: Bicycle, numbers: Damping) -> None:
+    for design, colour, style in zip(numbers.single_designs, _COLOURS, _STYLES, strict=True):
+        delta = np.geomspace(numbers.deltas[0], numbers.deltas[-1], _SAMPLES)
+        delta = np.union1d(delta, [design.at_onset.delta] if design.at_onset else [])
+        rows = first_intervals(bicycle, design.lam, design.sigma, delta.tolist())
         V1 = [_or_gap(row.V1) for row in rows]
         V2 = [_or_gap(row.V2) for row in rows]
         label = f"λ = {design.lam:.2f}, σ = {design.sigma:.2f}"
@@ -79,7 +81,7 @@ def _measures(ax: Axes, numbers: Damping) -> None:
         ]
     for (label, values), colour, style in zip(measures.items(), _COLOURS, _STYLES, strict=False):
         percent = [100 * abs(_or_gap(value)) for value in values]
-        ax.plot(numbers.deltas, percent, color=colour, ls=style, lw=1.8, label=label)
+        ax.plot(numbers.deltas, percent, color=colour, ls=style, lw=1.8, marker="o", ms=3, label=label)
     marked = 100 * THRESHOLDS["marked"]
     ax.axhline(marked, color="0.3", lw=0.8)
     ax.text(numbers.deltas[0] * 1.2, marked * 1.1, f"a marked change: {marked:g} %", path_effects=HALO)
