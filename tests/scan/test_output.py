@@ -147,11 +147,11 @@ def test_a_bicycles_file_that_has_changed_is_another_config():
         run_scan(load(text))
 
 
-@pytest.mark.parametrize("content", [b"", b"not HDF5"])
-def test_a_file_that_is_no_volume_is_replaced_with_force_only(content):
+@pytest.mark.parametrize(("content", "problem"), [(b"", "is empty"), (b"not HDF5", "is not an HDF5 file")])
+def test_a_file_that_is_no_volume_is_replaced_with_force_only(content, problem):
     Path("out").mkdir()
     Path("out/volume.h5").write_bytes(content)
-    with pytest.raises(InputError, match="exists, and is not an HDF5 file") as caught:
+    with pytest.raises(InputError, match=f"exists, and {problem}") as caught:
         run_scan(small())
     assert "--force" in caught.value.hint
     assert Path("out/volume.h5").read_bytes() == content
