@@ -39,6 +39,13 @@ def offsets(figure):
     ]
 
 
+def smallest(figure):
+    """Points of the smallest letters of a picture that is printed 16 cm wide, unless it is narrower."""
+    scale = min(1.0, 16 / 2.54 / figure.get_figwidth())
+    sizes = (text.get_fontsize() for text in _texts(figure) if text.get_visible() and text.get_text().strip())
+    return scale * min(sizes)
+
+
 def _common(a, b):
     """The smaller side of what two boxes have in common; below zero where they are apart."""
     return min(min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0))

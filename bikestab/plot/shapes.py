@@ -35,7 +35,7 @@ def draw_shapes(machines: Sequence[tuple[str, Shapes]], name: str = "") -> Figur
     lines_for(len(machines))
     shown = [[k for k, s in enumerate(found.eigenvalues) if s.imag >= 0] for _, found in machines]
     rows, columns = len(machines), max(map(len, shown))
-    figure = Figure(figsize=(2.1 * columns, 1.0), layout="constrained")
+    figure = Figure(figsize=(2.05 * columns, 1.0), layout="constrained")
     speeds = {found.V for _, found in machines}
     whose = machines[0][0] if rows == 1 else name
     at = f" at {machines[0][1].V:g} m/s" if len(speeds) == 1 else ""

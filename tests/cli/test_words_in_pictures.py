@@ -6,7 +6,7 @@ from bikestab.design import best, search
 from bikestab.plot import files
 from bikestab.plot.letters import make_drawable
 from bikestab.plot.ticks import plain_numbers
-from tests.words import faults, offsets
+from tests.words import faults, offsets, smallest
 
 PAPER = "--lam 0.2 --sigma 0.08"
 NAMED = "--bicycle named.yaml --bicycle lettered.yaml --bicycle sharp1971"
@@ -121,6 +121,7 @@ def test_words_stand_apart(bikestab, figures, command):
     assert code == 0, err
     assert faults(figures[0]) == []
     assert offsets(figures[0]) == []
+    assert smallest(figures[0]) > 6
 
 
 def test_designs_in_one_place_have_one_mark(bikestab, figures):
