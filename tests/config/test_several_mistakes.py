@@ -24,6 +24,11 @@ expect: [{V1: 4, V2: 1kg}, {within: 1%}, {lam: 95deg, V1: 3}]
 """
 
 
+@pytest.fixture(autouse=True)
+def _elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
 def told(text, overrides=()):
     with pytest.raises(InputError) as caught:
         parse_config(yamltext.parse(text, "a.yaml"), overrides)
