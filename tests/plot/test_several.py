@@ -8,12 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.text import Text
 
+from bikestab.against import modes_against
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
 from bikestab.plot.ends import draw_ends
-from bikestab.plot.growth import draw_growth
+from bikestab.plot.growth import draw_growth, draw_growth_against
 from bikestab.plot.sidelabels import MOST, lines_for, spread
 from bikestab.region.answers import stable_speeds
+from bikestab.stability import growth_rate
 
 
 def presets(*names):
@@ -98,6 +100,20 @@ def test_arrows_where_there_is_no_upper_limit():
     open_ = [a["sigma"] for a in machines[1][1] if a["intervals"] and a["intervals"][0]["V2"] is None]
     assert [len(line.get_xdata()) > 0 for line in arrows] == [False, True]
     assert all(min(open_) <= x <= max(open_) for x in arrows[1].get_xdata())
+
+
+def test_growth_rates_against_a_parameter_are_those_of_the_machines():
+    bikes = {name: Bicycle.preset(name) for name in ("meijaard2007", "sharp1971")}
+    found = [(name, modes_against(bike, "delta", np.linspace(0, 8, 9), 7.0)) for name, bike in bikes.items()]
+    (ax,) = draw_growth_against(found, 7.0, "damping").axes
+    assert names_in(ax.figure) == [*bikes]
+    for (name, against), unstable, stable in zip(found, ax.lines[::3], ax.lines[1::3], strict=False):
+        for x, *rates in zip(stable.get_xdata(), stable.get_ydata(), unstable.get_ydata(), strict=True):
+            rate = next(y for y in rates if np.isfinite(y))
+            expected = float(growth_rate(bikes[name], 7.0, delta=x))
+            assert rate == pytest.approx(expected, rel=1e-6, abs=1e-9)
+        ends = [end for pair in against.stable for end in pair if 0 < end < 8]
+        assert all(end in stable.get_xdata() for end in ends)
 
 
 def test_neighbours_differ_in_greyscale():
