@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 from bikestab_cli.design_box import Box, box_options
+from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
 from bikestab_cli.options import FILE, PICTURE, check_files, free_option, json_option, sd_option
 from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.quantities import Ends
@@ -121,19 +122,20 @@ def _tell_best(
 ) -> None:
     """Search the box, and tell what was found, draw it and write it."""
     from bikestab_cli.design_picture import check_picture, draw, search
-    from bikestab_cli.design_words import told, told_all
+    from bikestab_cli.design_words import told_of_all
 
     from bikestab.files import to_stdout
 
-    asked = box.wanted(machines, model)
+    lacks = lacking(machines, box.ends)
+    able = with_design(machines, lacks)
+    asked = box.wanted(able, model)
     if output:
         check_picture(*box.ends.values())
     check_files(csv_file, output)
     bests, curves = search(asked, output)
-    found = list(zip(machines, asked, bests, strict=True))
-    (machine, wanted, best), *others = found
+    found = list(zip(able, asked, bests, strict=True))
     if not as_json:
-        text = told_all(found) if others else told(wanted, best, machine.changes)
+        text = told_of_all(found, told_without(machines, lacks))
         click.echo(text, err=any(to_stdout(name) for name in (csv_file, output) if name))
     if csv_file:
         _save(found, [*box.over], csv_file)
@@ -142,10 +144,11 @@ def _tell_best(
     files = {kind: name for kind, name in (("csv", csv_file), ("picture", output)) if name}
     if as_json:
         results = [[{"searched": box.searched(), **own._asdict()}] for own in bests]
-        print_json(record_of(machines, model, results, files))
+        print_json(record_of(machines, model, results_of_all(machines, lacks, results), files))
     else:
         for name in files.values():
             tell_file(name)
+    end_of_all(machines, lacks)
 
 
 def _save(found: Sequence[tuple[Chosen, Wanted, Best]], over: Sequence[str], csv_file: str) -> None:

@@ -24,6 +24,13 @@ VANISHES = (
 )
 
 
+def told_of_all(found: Sequence[tuple[Chosen, Wanted, Best]], left_out: Sequence[str]) -> str:
+    """All that was found of one machine, or of several their optima, and who is left out."""
+    (machine, wanted, best), *others = found
+    text = told_all(found) if others or left_out else told(wanted, best, machine.changes)
+    return "\n\n".join([text, *map(prose, left_out)])
+
+
 def told(wanted: Wanted, best: Best, changes: str) -> str:
     """All that was found, in the order of the questions: what was searched, the optima, the front, notes."""
     changed = f" ({changes})" if changes else ""

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from bikestab.design import best, search
+
 THREE = [word for name in ("meijaard2007", "dikarev1981", "sharp1971") for word in ("--bicycle", name)]
 NAMES = THREE[1::2]
 ADVICE = "dikarev1981 has no tilt and trail of its own: give --lam and --sigma, of all machines then"
@@ -68,3 +70,18 @@ def test_none_has_a_design(bikestab):
         code, out, err = bikestab(*command, "--set", "m1=80,90")
         assert (code, out) == (2, "")
         assert "dikarev1981 m1=80, dikarev1981 m1=90 have no tilt and trail of their own" in err
+
+
+def test_a_search_over_other_parameters_needs_a_design(bikestab, monkeypatch):
+    monkeypatch.setattr(best, "GRID", 11)
+    monkeypatch.setattr(search, "ROUNDS", 3)
+    monkeypatch.setattr(search, "ROUNDS_TOGETHER", 2)
+    args = ("design", "--over", "delta=0:1", "--over", "h1=0.8:0.9")
+    two = ("--bicycle", "sharp1971", "--bicycle", "dikarev1981")
+    code, out, err = bikestab(*args, *two, "--csv", "a.csv")
+    assert code == 2
+    assert ADVICE in err
+    assert "dikarev1981: no tilt and trail of its own" in out
+    code, out, _ = bikestab(*args, *two, "--json")
+    assert (code, ["error" in each for each in json.loads(out)["results"]]) == (2, [False, True])
+    assert bikestab("design", *two, "--V", "6", "--json")[0] == 0
