@@ -1,10 +1,12 @@
 """Results for places where none can be: one message with path and advice, and nothing is written."""
 
+import shutil
 from pathlib import Path
 
 import pytest
 
-from tests.scans import files
+from bikestab.scan.run import run_scan
+from tests.scans import files, load
 
 CONFIG = """\
 bicycle: meijaard2007
@@ -28,13 +30,20 @@ PLACES = {  # and the exit code, and what is advised
 }  # fmt: skip
 
 
+@pytest.fixture(scope="module")
+def volume(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("out")
+    run_scan(load(f"{CONFIG}output: {folder}\n"))
+    return folder
+
+
 @pytest.fixture(autouse=True)
-def there(bikestab):
+def there(bikestab, volume):
     Path("a.yaml").write_text(CONFIG, "utf-8")
     Path("file").write_text("mine", "utf-8")
     for ending in {"", *COMMANDS.values()}:
         Path(f"folder{ending}").mkdir()
-    assert bikestab("scan", "a.yaml", "--set", "output=out", "--set", "slices=[]", "--quiet")[0] == 0
+    shutil.copytree(volume, "out")
     return files()
 
 
