@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
+from bikestab.limits import check_speed
 from bikestab.model import ExactTable, Floats, Model, characteristic_table, exact_table
 from bikestab.modes import Modes, follow
 from bikestab.records import Design, design_record
@@ -64,6 +65,7 @@ def modes_against(
     fixed = dict(others or {})
     if name in fixed:
         raise InputError("it varies, and is fixed too", key=(name,), hint="give one of them")
+    check_speed(V, ("V",))
     check_names(bicycle, {each: each for each in (name, *fixed)})
     for value in (min(values), max(values)):
         check_values(bicycle, {**fixed, name: value})

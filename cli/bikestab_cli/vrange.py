@@ -74,7 +74,8 @@ def command(
 
     --over takes values of any one or two parameters: those of the bicycle's notation, a rider's, and lam,
     head_angle, sigma, trail, offset, delta. What does not vary is as the bicycle has it. The picture of two
-    is over the one with more values, with a curve for each of the other's.
+    is over the one with more values, with a curve for each of the other's. A picture is drawn in place of
+    the table, as by eigen, and named on stdout; --json is printed beside it.
 
     --sd tells what standard deviations of parameters leave of that: in how many of 20 000 machines drawn at
     random there is a stable speed, and where nine tenths of the ends lie ('bikestab sensitivity' says more).

@@ -221,6 +221,8 @@ def test_arrowheads_cover_no_dot_and_no_number(name):
         (["--over", "delta=-1:5:6", "--at", "5"], "-1 is not non-negative"),
         (["--locus"], "--locus: it is a picture: give -o FILE"),
         (["--shapes", "--at", "-1"], "--at: -1"),
+        (["--over", "delta=0:1:3", "--at", "-1"], "--at: -1 is a speed backwards"),
+        (["--over", "delta=0:1:3", "--at", "1e7"], "--at: 1e+07 m/s is out of range"),
         (["--shapes", "--bicycle", "kooijman2011"], "give --at"),
     ],
 )
