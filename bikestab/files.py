@@ -89,6 +89,11 @@ def linked(path: str | Path) -> Path:
     return Path(os.path.realpath(path)) if Path(path).is_symlink() else Path(path)
 
 
+def folder_of(path: str | Path) -> Path:
+    """Where the paths in a file start: in its folder, and of what stdin gives in the current one."""
+    return Path() if _OPEN.fullmatch(str(path)) else Path(path).parent
+
+
 def to_stdout(path: str | Path) -> bool:
     """Whether what is written to ``path`` goes where stdout goes."""
     try:

@@ -18,6 +18,7 @@ from bikestab.config.oneunit import bare_in_lists
 from bikestab.config.scanconfig import CheckConfig, ScanConfig
 from bikestab.config.values import Strict
 from bikestab.errors import InputError, Mistakes, dotted, nearest, together
+from bikestab.files import folder_of
 from bikestab.formats.kinds import expected
 from bikestab.presets import preset_names
 from bikestab.rider import flattened
@@ -112,7 +113,7 @@ def _parsed(document: yamltext.Document, places: dict[_Key, str], form: type[For
         if form is ScanConfig:
             data.setdefault("output", f"out/{Path(document.file).stem}")
         typed = {key[0] for key in places}  # in a command, where paths start from the current folder
-        folder = Path(document.file).parent
+        folder = folder_of(document.file)
         if "bicycle" in data:
             named = places.get(("bicycle",), f"{document.file}, line {document.line(('bicycle',))}")
             with mistakes.kept(), _named(named):

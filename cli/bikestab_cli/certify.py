@@ -20,7 +20,7 @@ from bikestab_cli.options import (
     of_file,
     told_as_options,
 )  # fmt: skip
-from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.output import print_json, tell, tell_file
 from bikestab_cli.progress import progress
 from bikestab_cli.quantities import SPEED_ENDS, Ends, Quantity
 from bikestab_cli.tolerances import DESIGN, tolerances_of, with_design
@@ -158,7 +158,7 @@ def command(
     else:
         from bikestab_cli.certify_words import told
 
-        click.echo(told(proof))
+        tell(told(proof), certificate)
         if certificate:
             tell_file(certificate)
 

@@ -8,7 +8,7 @@ from time import perf_counter
 import click
 from bikestab_cli.check_words import Checked, failures, outcome_records, outcome_table, suite_of
 from bikestab_cli.options import FILE, NAME, check_files, json_option, of_file
-from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.output import print_json, tell, tell_file
 from bikestab_cli.streams import tell_error
 
 from bikestab.errors import BikestabError, InputError
@@ -51,7 +51,7 @@ def command(configs: tuple[str, ...], junit: str | None, as_json: bool) -> None:
             print_json({"results": results, **({"files": {"junit": junit}} if junit else {})})
         else:
             if number:
-                click.echo("\n".join([outcome_table(checked), *failures(checked)]))
+                tell("\n".join([outcome_table(checked), *failures(checked)]), junit)
             if junit:
                 tell_file(junit)
     codes = [0, *(2 if isinstance(each.error, InputError) else 3 for each in checked if each.error)]

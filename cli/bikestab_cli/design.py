@@ -9,7 +9,7 @@ import click
 from bikestab_cli.design_box import Box, box_options
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
 from bikestab_cli.options import FILE, PICTURE, check_files, free_option, json_option, sd_option
-from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.output import print_json, tell, tell_file
 from bikestab_cli.quantities import Ends
 from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
 
@@ -124,8 +124,6 @@ def _tell_best(
     from bikestab_cli.design_picture import check_picture, draw, search
     from bikestab_cli.design_words import told_of_all
 
-    from bikestab.files import to_stdout
-
     lacks = lacking(machines, box.ends)
     able = with_design(machines, lacks)
     asked = box.wanted(able, model)
@@ -136,7 +134,7 @@ def _tell_best(
     found = list(zip(able, asked, bests, strict=True))
     if not as_json:
         text = told_of_all(found, told_without(machines, lacks))
-        click.echo(text, err=any(to_stdout(name) for name in (csv_file, output) if name))
+        tell(text, csv_file, output)
     if csv_file:
         _save(found, [*box.over], csv_file)
     if output:

@@ -10,11 +10,10 @@ import click
 from bikestab_cli.design_words import VANISHES
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
 from bikestab_cli.options import check_files, told_as_options
-from bikestab_cli.output import heading, print_json, prose, table, tell_file, within
+from bikestab_cli.output import heading, print_json, prose, table, tell, tell_file, within
 from bikestab_cli.quantities import Ends
 from bikestab_cli.several import Chosen, record_of
 
-from bikestab.files import to_stdout
 from bikestab.variants import parameter_of, told_deviations
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ def tell_free(
         bests.append(best)
     if not as_json:
         told += told_without(machines, lacks)
-        click.echo("\n\n".join(told), err=any(to_stdout(name) for name in (csv_file, output) if name))
+        tell("\n\n".join(told), csv_file, output)
     if csv_file:
         blocks = [
             (machine.bicycle.name, machine.changes, optima_blocks(best))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
 from bikestab_cli.options import told_as_options
-from bikestab_cli.output import heading, print_json, prose, tell_file
+from bikestab_cli.output import heading, print_json, prose, tell, tell_file
 from bikestab_cli.quantities import Ends
 from bikestab_cli.several import Chosen, record_of
 
@@ -68,7 +68,7 @@ def tell_largest(
     if as_json:
         print_json(record_of(machines, model, results_of_all(machines, lacks, results), files))
     else:
-        click.echo("\n\n".join([*told, *told_without(machines, lacks)]))
+        tell("\n\n".join([*told, *told_without(machines, lacks)]), certificate)
         if certificate:
             tell_file(certificate)
     end_of_all(machines, lacks)

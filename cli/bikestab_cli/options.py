@@ -40,11 +40,19 @@ class Name(click.ParamType):
         text = str(value)
         if not text.strip():
             self.fail(f"{text!r} is no name", param, ctx)
+        if text == "-" and "picture" not in self.of:
+            return self._stream(param, ctx)
         if "file" in self.of and (text.endswith(("/", os.sep)) or Path(text).name in ("", "..")):
             self.fail(f"{text!r} is a folder, not a file to write", param, ctx)
         if "picture" in self.of and Path(text).suffix.lower() not in PICTURES:
             self.fail(f"{text!r} has no ending {', '.join(PICTURES[:-1])} or {PICTURES[-1]}", param, ctx)
         return text
+
+    def _stream(self, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """What - stands for, as in other programs."""
+        if "file" not in self.of and param and param.name in ("scheduler", "output"):  # which is a folder
+            self.fail("'-' is no name", param, ctx)
+        return "/dev/stdout" if "file" in self.of else "/dev/stdin"
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[Any]:
         """Files; where a bicycle is wanted those that come with bikestab too."""

@@ -31,6 +31,11 @@ def print_json(value: object) -> None:
     click.echo(json.dumps(value, indent=2, ensure_ascii=escaped, allow_nan=False))
 
 
+def tell(text: str, *files: str | None) -> None:
+    """Print what was found on stdout, or on stderr where one of the ``files`` goes to stdout."""
+    click.echo(text, err=any(to_stdout(name) for name in files if name))
+
+
 def tell_file(name: object, words: str = "") -> None:
     """Name a file that was written on stdout, or on stderr where the file itself went to stdout."""
     click.echo(f"{name}: {words}" if words else str(name), err=to_stdout(str(name)))

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 def _keep(context: click.Context, option: click.Parameter, file: str | None) -> None:
     if file is not None and not file.strip():
         raise click.BadParameter(f"{file!r} is no name", param=option)
-    context.meta["bikestab.rider"] = file
+    context.meta["bikestab.rider"] = "/dev/stdin" if file == "-" else file
 
 
 rider_option = click.option(

@@ -9,7 +9,7 @@ import click
 from bikestab_cli.chosen import Given, design_options
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
 from bikestab_cli.options import FILE, PICTURE, check_files, json_option, sd_option
-from bikestab_cli.output import print_json, prose, tell_file
+from bikestab_cli.output import print_json, prose, tell, tell_file
 from bikestab_cli.sensitivity_found import Found, found_of
 from bikestab_cli.several import Values, machines_chosen, record_of, several_machines
 
@@ -98,7 +98,7 @@ def command(
         results = results_of_all(machines, lacks, [[each.result()] for each in found])
         print_json(record_of(machines, model, results, files))
     else:
-        click.echo(_told(found, what, told_without(machines, lacks)))
+        tell(_told(found, what, told_without(machines, lacks)), csv_file, output)
         for name in files.values():
             tell_file(name)
     end_of_all(machines, lacks)

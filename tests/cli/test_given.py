@@ -1,11 +1,16 @@
 """What is given twice, or is empty, is refused and not dropped."""
 
 import importlib
+import re
+import subprocess
+import sys
 
 import click
 import pytest
 from bikestab_cli.main import COMMANDS
 from bikestab_cli.once import takes_one
+
+from bikestab.presets import preset_text
 
 OPTIONS = [
     (name, command, param)
@@ -138,3 +143,44 @@ def test_what_cannot_be_is_told_of_by_its_option_and_name(bikestab, words, told)
     assert (code, out, err.count("\n")) == (2, "", 2)
     assert err.startswith("error: Invalid value for --")
     assert told in err
+
+
+@pytest.mark.parametrize(
+    ("words", "start", "end"),
+    [
+        ("check c.yaml --junit -", "<?xml", "</testsuites>"),
+        (f"sensitivity {M} --csv -", "interval,", "{csv}"),
+        (f"eigen {M} --V 4:5:2 --csv -", "V,branch", "{csv}"),
+        (f"certify {M} --lam 0.3 --sigma 0.08 --V 4.6:4.7 -o -", '{"format"', "}"),
+        ("init -", "# ", "{any}"),
+    ],
+)
+def test_a_dash_to_write_to_is_stdout(tmp_path, words, start, end):
+    """Which then has nothing but the file; no file is called -."""
+    (tmp_path / "c.yaml").write_text("bicycle: meijaard2007\nexpect: [{V1: 4.292, V2: 6.024, within: 1%}]\n")
+    command = [sys.executable, "-m", "bikestab", *words.split()]
+    ran = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=True)
+    lines = ran.stdout.strip().split("\n")
+    assert lines[0].startswith(start)
+    if end == "{csv}":
+        assert len({line.count(",") for line in lines}) == 1
+    elif end != "{any}":
+        assert lines[-1].endswith(end)
+    assert not (tmp_path / "-").exists()
+
+
+@pytest.mark.parametrize("words", ["vrange --bicycle -", "check -", "eigen --bicycle - --V 5", "convert -"])
+def test_a_dash_to_read_from_is_stdin(tmp_path, words):
+    """A config from there has its bicycle's file in the current folder."""
+    (tmp_path / "b.yaml").write_text(preset_text("meijaard2007"), "utf-8")
+    text = "bicycle: b.yaml\nexpect: [{V1: 4.292, V2: 6.024, within: 1%}]\n"
+    given = text if words == "check -" else preset_text("meijaard2007")
+    command = [sys.executable, "-m", "bikestab", *words.split()]
+    ran = subprocess.run(command, input=given, capture_output=True, text=True, cwd=tmp_path, check=True)
+    assert re.search(r"4\.29238|mB: 85|weave", ran.stdout)
+
+
+def test_a_dash_is_no_picture_and_no_folder(bikestab):
+    for words in (f"vrange {M} -o -", "reproduce -o -", "scan a.yaml --scheduler -"):
+        code, out, err = bikestab(*words.split())
+        assert (code, out, "'-' " in err) == (2, "", True)
