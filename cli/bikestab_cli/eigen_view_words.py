@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from bikestab_cli.eigen_words import eigenvalue, eigenvalue_table, narrowed
-from bikestab_cli.output import DESIGN_HEAD, aligned, decimals, design_columns, heading, prose, table
+from bikestab_cli.output import DESIGN_HEAD, aligned, as_read, decimals, design_columns, heading, prose, table
 
 if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
@@ -82,11 +82,16 @@ def told_against(
 ) -> str:
     """A row of eigenvalues for each value of the parameter, with what is set and ``beside`` it."""
     every = range(0, len(found.values), -(-len(found.values) // _MOST))
-    rows = [(f"{found.values[i]:.6g}", found.modes[i]) for i in every]
+
+    def read(value: float) -> float:
+        return as_read(found.name, value, "")[0]
+
+    rows = [(f"{read(found.values[i]):.6g}", found.modes[i]) for i in every]
+    unit = as_read(found.name, 0.0, unit)[1]
     words = f"{found.name} [{unit}] at {V:.6g} m/s"
     if len(rows) < len(found.values):
         words += f"; every {every.step}th of {len(found.values)} values, which --json and --csv have all"
-    ends = ", ".join(f"{start:.10g} to {stop:.10g}" for start, stop in found.stable)
+    ends = ", ".join(f"{read(start):.10g} to {read(stop):.10g}" for start, stop in found.stable)
     words += f"\nstable: {ends} {unit}" if ends else "\nstable: nowhere between these"
     changed = f" ({machine.changes})" if machine.set else ""
     table_ = eigenvalue_table(f"{found.name}\n[{unit}]", rows)

@@ -31,6 +31,11 @@ def print_json(value: object) -> None:
     click.echo(json.dumps(value, indent=2, ensure_ascii=escaped, allow_nan=False))
 
 
+def as_read(name: str, value: float, unit: str) -> tuple[float, str]:
+    """A parameter's value and unit as tables have them: a head angle in degrees, as beside every tilt."""
+    return (math.degrees(value), "°") if name == "head_angle" else (value, unit)
+
+
 def tell(text: str, *files: str | None) -> None:
     """Print what was found on stdout, or on stderr where one of the ``files`` goes to stdout."""
     click.echo(text, err=any(to_stdout(name) for name in files if name))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import click
 from bikestab_cli.completion import parameters
 from bikestab_cli.options import BICYCLE, DEFAULT_BICYCLE, equation_options, load_bicycle, tell_which, warn
+from bikestab_cli.output import as_read
 from bikestab_cli.parameters import parameter
 
 from bikestab.errors import InputError
@@ -35,7 +36,8 @@ class Chosen(NamedTuple):
     def changes(self) -> str:
         """What is set, in words."""
         digits = max(self.digits, 6)
-        return " ".join(f"{name}={value:.{digits}g}" for name, value in self.set.items())
+        values = [(name, *as_read(name, value, "")) for name, value in self.set.items()]
+        return " ".join(f"{name}={x:.{digits}g}{'deg' if unit else ''}" for name, x, unit in values)
 
     @property
     def words(self) -> str:
@@ -63,8 +65,9 @@ def _with_units(machine: Chosen) -> str:
     known = {**machine.bicycle.notation, **FRONT}
     units = {name: parameter_of(machine.bicycle, name).unit for name in machine.set if name in known}
     digits = machine.digits
-    parts = (f"{name} = {value:.{digits}g} {units.get(name, '')}" for name, value in machine.set.items())
-    return ", ".join(part.removesuffix(" 1").strip() for part in parts)
+    values = [(name, *as_read(name, value, units.get(name, ""))) for name, value in machine.set.items()]
+    parts = (f"{name} = {value:.{digits}g} {unit}" for name, value, unit in values)
+    return ", ".join(part.removesuffix(" 1").strip().replace(" °", "°") for part in parts)
 
 
 def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -> Values:
@@ -92,7 +95,10 @@ def _digits(changes: Values) -> int:
     return next(
         digits
         for digits in range(FEWEST_DIGITS, 18)  # 17 tell all doubles apart
-        if all(len({f"{x:.{digits}g}" for x in values}) == len(values) for values in changes.values())
+        if all(
+            len({f"{as_read(name, x, '')[0]:.{digits}g}" for x in values}) == len(values)
+            for name, values in changes.items()
+        )
     )
 
 

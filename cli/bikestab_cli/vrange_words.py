@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from bikestab_cli.output import (
     DESIGN_HEAD,
     WIDTH,
+    as_read,
     certain,
     design_columns,
     heading,
@@ -98,7 +99,7 @@ def told_over(
     from bikestab.variants import parameter_of
 
     named = [parameter_of(machine.bicycle, name) for name in points[0][0]]
-    places = [", ".join(f"{name} = {value:.6g}" for name, value in point.items()) for point, _ in points]
+    places = [", ".join(f"{n} = {_value(n, x)}" for n, x in point.items()) for point, _ in points]
     notes = [
         f"marginal at {place}: {answer['reason']}"
         for place, (_, answer) in zip(places, points, strict=True)
@@ -107,7 +108,9 @@ def told_over(
     notes += [
         f"{place}: {'; '.join(known_lines(known))}" for place, known in zip(places, spreads, strict=False)
     ]
-    head = [f"{p.name}\n[{p.unit}]" if p.unit != "1" else p.name for p in named]
+    units = [as_read(p.name, 0.0, p.unit)[1] for p in named]
+    names = [p.name.replace("_per_V", "\n_per_V") for p in named]
+    head = [f"{name}\n[{unit}]".removesuffix("\n[1]") for name, unit in zip(names, units, strict=True)]
     changed = f" ({machine.changes})" if machine.set else ""
     for digits in range(_FEWER, _FEWEST - 1, -1):
         told = table([*head, *_HEAD], _rows_over(points, digits))
@@ -117,10 +120,14 @@ def told_over(
     return "\n".join([*text, *map(prose, notes)])
 
 
+def _value(name: str, value: float) -> str:
+    return f"{as_read(name, value, '')[0]:.6g}"
+
+
 def _rows_over(points: Sequence[tuple[dict[str, float], Answer]], digits: int) -> list[list[str]]:
     rows = []
     for point, answer in points:
-        values = [f"{value:.6g}" for value in point.values()]
+        values = [_value(name, value) for name, value in point.items()]
         for row in _rows([answer], digits):
             narrow = (
                 row if digits == _FEWER else [cell.replace("stable speed", "stable\nspeed") for cell in row]

@@ -184,3 +184,21 @@ def test_a_dash_is_no_picture_and_no_folder(bikestab):
     for words in (f"vrange {M} -o -", "reproduce -o -", "scan a.yaml --scheduler -"):
         code, out, err = bikestab(*words.split())
         assert (code, out, "'-' " in err) == (2, "", True)
+
+
+def test_a_head_angle_that_is_typed_in_degrees_is_shown_in_degrees(bikestab):
+    """In tables; JSON has radians, as its key says."""
+    over = ("--bicycle", "meijaard2007", "--over", "head_angle=68deg:72deg:3")
+    table = bikestab("vrange", *over)[1]
+    assert "[rad]" not in table.replace("lam [rad]", "")
+    assert re.search(r"^ +68 +0\.383972", table, re.MULTILINE)
+    table = bikestab("eigen", *over, "--at", "5")[1]
+    assert "head_angle [°] at 5 m/s\nstable: 68 to 72 °" in table
+    assert re.search(r"^ +70 ", table, re.MULTILINE)
+    assert "head_angle=68deg" in bikestab("vrange", *over[:2], "--set", "head_angle=68deg,70deg")[1]
+
+
+def test_long_names_of_two_parameters_leave_80_columns(bikestab):
+    names = ("--over", "k_phidot_per_V=-50:0:3", "--over", "k_deltadot_per_V=0:5:3")
+    code, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", *names)
+    assert (code, max(map(len, out.split("\n"))) <= 80) == (0, True)
