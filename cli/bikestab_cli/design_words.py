@@ -6,7 +6,17 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from bikestab_cli.output import DESIGN_HEAD, design_columns, heading, letter_of, prose, table, within
+from bikestab_cli.output import (
+    DESIGN_HEAD,
+    as_read,
+    design_columns,
+    heading,
+    letter_of,
+    prose,
+    span_read,
+    table,
+    within,
+)
 
 from bikestab.variants import parameter_of
 
@@ -71,7 +81,7 @@ def _searched(wanted: Wanted, *, trail: bool) -> str:
     bicycle, (low, high) = wanted.family.bicycle, wanted.box
     if not wanted.family.of_front:
         ranges = (
-            f"{p.symbol} = {a:.6g} ... {b:.6g} {p.unit}".removesuffix(" 1")
+            f"{p.symbol} = {span_read(p.name, a, b, p.unit)}"
             for p, a, b in zip(wanted.family.parameters, low, high, strict=True)
         )
         return f"searched: {', '.join(ranges)}{_asked(wanted)}"
@@ -130,7 +140,8 @@ def _table(designs: Sequence[tuple[Wanted, str, JudgedDesign]], first: str) -> s
     named, offset = DESIGN_HEAD[:2], DESIGN_HEAD[2]
     if over := list(designs[0][2].get("over", {})):
         bicycle = designs[0][0].family.bicycle
-        named = [f"{name}\n[{parameter_of(bicycle, name).unit}]".removesuffix("\n[1]") for name in over]
+        units = [as_read(name, 0.0, parameter_of(bicycle, name).unit)[1] for name in over]
+        named = [f"{name}\n[{unit}]".removesuffix("\n[1]") for name, unit in zip(over, units, strict=True)]
     head = [first, *named, f"width [m/s]{offset}", "V1 [m/s]", "V2 [m/s]", "growth [1/s]\nat [m/s]"]
     rows = []
     for wanted, name, d in designs:
@@ -141,7 +152,7 @@ def _table(designs: Sequence[tuple[Wanted, str, JudgedDesign]], first: str) -> s
         width = f"{d['width']:.5f}" + ("*" if _is_cut(wanted, d) else " ")
         rate = "inf" if d["growth_rate"] is None else f"{d['growth_rate']:z.6f}"
         columns = design_columns(d)
-        values = [within(value, 9) for value in d.get("over", {}).values()] or columns[:2]
+        values = [within(as_read(n, x, "")[0], 9) for n, x in d.get("over", {}).items()] or columns[:2]
         rows.append([name, *values, width + columns[2], *ends, f"{rate}\n{d['V']:.4f}"])
     places = [f"{name}: {d['at']}" for _, name, d in designs if d["at"] not in ("", "interior")]
     return "\n".join([table(head, rows, fold=0), *places])

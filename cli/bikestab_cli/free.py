@@ -10,7 +10,17 @@ import click
 from bikestab_cli.design_words import VANISHES
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
 from bikestab_cli.options import check_files, told_as_options
-from bikestab_cli.output import heading, print_json, prose, table, tell, tell_file, within
+from bikestab_cli.output import (
+    as_read,
+    heading,
+    print_json,
+    prose,
+    span_read,
+    table,
+    tell,
+    tell_file,
+    within,
+)
 from bikestab_cli.quantities import Ends
 from bikestab_cli.several import Chosen, record_of
 
@@ -90,7 +100,7 @@ def told_free(free: Free, best: FreeBest, deviations: Mapping[str, float], chang
     ranges = []
     for name, (low, high) in free.ends.items():
         unit = parameter_of(free.bicycle, name).unit
-        ranges.append(f"{name} = {low:.6g} ... {high:.6g} {unit}".removesuffix(" 1"))
+        ranges.append(f"{name} = {span_read(name, low, high, unit)}")
     stable = f"; stable from {free.stable[0]:g} to {free.stable[1]:g} m/s" if free.stable else ""
     searched = f"searched: {', '.join(ranges)}{stable}"
     if deviations:
@@ -110,7 +120,7 @@ def told_free(free: Free, best: FreeBest, deviations: Mapping[str, float], chang
         parts.append(VANISHES)
     if best.most_robust:
         robust = best.most_robust
-        at = ", ".join(f"{name} = {value:.6g}" for name, value in robust["nearest"].items())
+        at = ", ".join(f"{n} = {as_read(n, x, '')[0]:.6g}" for n, x in robust["nearest"].items())
         parts.append(
             f"most robust: every machine within {robust['radius']:.4g} standard deviations of it is stable "
             f"at these speeds; the nearest that is not has {at}"
@@ -121,8 +131,9 @@ def told_free(free: Free, best: FreeBest, deviations: Mapping[str, float], chang
 def _rows(free: Free, designs: list[FreeDesign]) -> list[list[str]]:
     rows = []
     for name in free.ends:
-        unit = parameter_of(free.bicycle, name).unit
-        rows.append([f"{name} [{unit}]".removesuffix(" [1]"), *(within(d["over"][name], 9) for d in designs)])
+        unit = as_read(name, 0.0, parameter_of(free.bicycle, name).unit)[1]
+        values = [within(as_read(name, d["over"][name], "")[0], 9) for d in designs]
+        rows.append([f"{name} [{unit}]".removesuffix(" [1]"), *values])
     rows.append(["head angle [°]", *(f"{d['head_angle_deg']:.3f}" for d in designs)])
     rows += [[f"{key} [m]", *(f"{value:z.4f}" for value in values)] for key, values in (
         ("trail", [d["trail"] for d in designs]), ("offset", [d["offset"] for d in designs])

@@ -36,6 +36,12 @@ def as_read(name: str, value: float, unit: str) -> tuple[float, str]:
     return (math.degrees(value), "°") if name == "head_angle" else (value, unit)
 
 
+def span_read(name: str, low: float, high: float, unit: str) -> str:
+    """A range as it is read."""
+    (low, shown), (high, _) = as_read(name, low, unit), as_read(name, high, unit)
+    return f"{low:.6g} ... {high:.6g} {shown}".removesuffix(" 1")
+
+
 def tell(text: str, *files: str | None) -> None:
     """Print what was found on stdout, or on stderr where one of the ``files`` goes to stdout."""
     click.echo(text, err=any(to_stdout(name) for name in files if name))

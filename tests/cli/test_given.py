@@ -195,6 +195,10 @@ def test_a_head_angle_that_is_typed_in_degrees_is_shown_in_degrees(bikestab):
     table = bikestab("eigen", *over, "--at", "5")[1]
     assert "head_angle [°] at 5 m/s\nstable: 68 to 72 °" in table
     assert re.search(r"^ +70 ", table, re.MULTILINE)
+    box = ("--bicycle", "meijaard2007", "--over", "head_angle=68deg:74deg", "--over", "mB=60:90", "--V", "5")
+    table = bikestab("design", *box)[1]
+    assert "searched: head_angle = 68 ... 74 °, mB = 60 ... 90 kg" in table
+    assert re.search(r"^own +72 +85 ", table, re.MULTILINE)
     assert "head_angle=68deg" in bikestab("vrange", *over[:2], "--set", "head_angle=68deg,70deg")[1]
 
 
