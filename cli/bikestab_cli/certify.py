@@ -112,16 +112,11 @@ def command(
     \b
     Examples:
       bikestab certify configs/quick.yaml
-      bikestab certify --bicycle meijaard2007 --lam 17deg:19deg \\
-        --sigma 0.07:0.085 --V 4.6:5.6
-      bikestab certify --bicycle meijaard2007 --lam 0.3 --sigma 0.08 --V 4.6:5 \\
-        --tolerance mB=85+-2
-      bikestab certify --bicycle meijaard2007 --head-angle 72deg \\
-        --offset 30mm:35mm --V 4.6:5.6
-      bikestab certify --bicycle meijaard2007 --lam 18deg \\
-        --tolerance trail=80mm+-3mm --V 4.6:5.4
-      bikestab certify --lam 0.2:0.21 --sigma 0.08 --V 4.1:4.6 --cells 4 \\
-        -o proof.json
+      bikestab certify --bicycle meijaard2007 --lam 17deg:19deg --sigma 0.08 --V 5
+      bikestab certify --lam 0.2 --sigma 0.08 --V 4.3 --tolerance m1=90+-0.2
+      bikestab certify --bicycle meijaard2007 --head-angle 72deg --trail 8cm --V 5
+      bikestab certify --lam 0.2 --V 4.3 --tolerance trail=83mm+-0.1mm
+      bikestab certify --lam 0.2:0.21 --sigma 0.08 --V 4.3 --cells 4 -o proof.json
       bikestab certify --verify proof.json
     """
     if verify:

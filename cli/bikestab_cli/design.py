@@ -84,13 +84,10 @@ def command(
       bikestab design --bicycle meijaard2007 --V 5
       bikestab design --lam 10deg:25deg --trail 0.05:0.12 --stable 16km/h:18km/h
       bikestab design --sigma 0.08 --V 4:6 --json
-      bikestab design --bicycle meijaard2007 --head-angle 68deg:74deg \\
-        --offset 0:80mm --V 5
+      bikestab design --head-angle 68deg:78deg --offset 0:80mm --V 5
       bikestab design --bicycle meijaard2007 --set mB=60,110 --V 5 -o fronts.png
-      bikestab design --bicycle meijaard2007 --over mB=60:110 \\
-        --over offset=0:80mm -o loads.png
-      bikestab design --bicycle meijaard2007 --free trail=2cm:15cm \\
-        --stable 5:5.4 --sd mB=3
+      bikestab design --bicycle meijaard2007 --over mB=60:110 --over trail=4cm:9cm
+      bikestab design --bicycle sharp1971 --free lam=20deg:35deg --stable 10:20
       bikestab design --bicycle meijaard2007 --certified --stable 4.6:5.4
       bikestab design --stable 4:6 --V 4:6 -o design.png --csv front.csv
     """

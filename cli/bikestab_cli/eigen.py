@@ -84,16 +84,13 @@ def command(
       bikestab eigen --bicycle meijaard2007
       bikestab eigen --lam 0.2 --sigma 0.08 --V 0:10:11
       bikestab eigen --head-angle 71deg --offset 45mm --V 0:20mph:5
-      bikestab eigen --bicycle meijaard2007 --V 0:36km/h:361 -o modes.png \\
-        --csv modes.csv
+      bikestab eigen --bicycle meijaard2007 --V 0:36km/h:361 --csv modes.csv
       bikestab eigen --bicycle meijaard2007 --set mB=60,85,110 -o growth.png
       bikestab eigen --bicycle meijaard2007 --locus -o locus.png
       bikestab eigen --bicycle meijaard2007 --shapes --at 5
-      bikestab eigen --bicycle meijaard2007 --push 'roll_rate=0.5' --at 5 \\
-        -o push.png
+      bikestab eigen --bicycle meijaard2007 --push roll_rate=0.5 -o push.png
       bikestab eigen --bicycle meijaard2007 --over delta=0:5:11 --at 4
-      bikestab eigen --bicycle meijaard2007 --over mB=60:110:11 \\
-        --over delta=0:5:3 --at 5 -o loads.png
+      bikestab eigen --bicycle meijaard2007 --over mB=60:110:11 --over delta=0:5:3
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """
     _check_picture(view, speeds, locus, output)

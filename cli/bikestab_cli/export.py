@@ -98,8 +98,7 @@ def command(
     Examples:
       bikestab export out/quick --mesh region.ply --cells 40
       bikestab export out/quick --intervals intervals.csv --skeleton skeleton.csv
-      bikestab export out/quick --mesh region.vtp --mesh region.stl \\
-        --scale 50,100,1
+      bikestab export out/quick --mesh region.stl --scale 50,100,1
       bikestab export out/quick --intervals intervals.parquet
     """
     from bikestab.export.formats import file_format

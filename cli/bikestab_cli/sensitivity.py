@@ -72,8 +72,7 @@ def command(
     \b
     Examples:
       bikestab sensitivity --bicycle meijaard2007
-      bikestab sensitivity --bicycle meijaard2007 --hold offset \\
-        --csv benchmark.csv
+      bikestab sensitivity --bicycle meijaard2007 --hold offset --csv all.csv
       bikestab sensitivity --lam 0.2 --sigma 0.08 --json
       bikestab sensitivity --bicycle meijaard2007 --head-angle 71deg --trail 55mm
       bikestab sensitivity --lam 0.1 --sigma 0.08 --of sigma_min

@@ -93,16 +93,12 @@ def command(
       bikestab vrange --lam 0.1 --sigma 0.08 --delta 1
       bikestab vrange --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg
       bikestab vrange --head-angle 71deg --trail 55mm
-      bikestab vrange --bicycle meijaard2007 --head-angle 68deg:74deg:7 \\
-        --offset 45mm
+      bikestab vrange --bicycle meijaard2007 --head-angle 68deg:74deg:7
       bikestab vrange --bicycle meijaard2007 --bicycle kooijman2011
       bikestab vrange --bicycle meijaard2007 --set mB=60,75,100
-      bikestab vrange --bicycle meijaard2007 --over mB=60:110:6 \\
-        --over offset=0:80mm:5
-      bikestab vrange --bicycle meijaard2007 --over mB=60:110:51 \\
-        --over offset=0:60mm:4 -o loads.png
-      bikestab vrange --bicycle meijaard2007 --bicycle sharp1971 \\
-        --trail 0:15cm:151 -o ends.png
+      bikestab vrange --bicycle meijaard2007 --over mB=60:110:6 --over c=5:9cm:5
+      bikestab vrange --bicycle meijaard2007 --over delta=0:8:51 -o damped.png
+      bikestab vrange --bicycle meijaard2007 --bicycle sharp1971 -o two.png
     """
     check_files(output)
     machines = machines_chosen(bicycle_name, delta, changes, given)
