@@ -9,7 +9,9 @@ from typing import Any, Literal, NamedTuple
 
 from bikestab.arguments import design_of
 from bikestab.bicycle import Bicycle
-from bikestab.config.scanconfig import CheckConfig, Expectation, ScanConfig
+from bikestab.config.checkconfig import CheckConfig
+from bikestab.config.parts import Expectation
+from bikestab.config.scanconfig import ScanConfig
 from bikestab.config.tolerance import allowance
 from bikestab.errors import InputError
 from bikestab.model import exact_table
@@ -61,14 +63,8 @@ class Outcome(NamedTuple):
     seconds: float
 
 
-def outcomes(config: ScanConfig | CheckConfig) -> list[Outcome]:
-    """Every expectation of the config, in its order; InputError if there is none, or one is of no design."""
-    if not config.expect:
-        raise InputError("has no expectations", hint="add 'expect:', see 'bikestab init'")
-    return [_outcome(config, expected, ("expect", i)) for i, expected in enumerate(config.expect)]
-
-
-def _outcome(config: ScanConfig | CheckConfig, expected: Expectation, key: _Key) -> Outcome:
+def outcome_of(config: ScanConfig | CheckConfig, expected: Expectation, key: _Key) -> Outcome:
+    """An expectation at ``key`` held against the exact speeds; InputError if it is of no design."""
     start = perf_counter()
     machine, lam, sigma = _designed(config.machine, expected, key)
     found = interval_records(intervals_of(exact_table(machine, lam, sigma, model=config.model)))

@@ -12,12 +12,11 @@ from pydantic import ValidationError
 from bikestab import yamltext
 from bikestab.bicycle import Bicycle
 from bikestab.config.correlation import with_known
-from bikestab.config.expectations import Outcome, outcomes
 from bikestab.config.mistakes import UNKNOWN, apart, translated
 from bikestab.config.oneunit import bare_in_lists
-from bikestab.config.scanconfig import CheckConfig, ScanConfig
+from bikestab.config.scanconfig import ScanConfig
 from bikestab.config.values import Strict
-from bikestab.errors import InputError, Mistakes, dotted, nearest, together
+from bikestab.errors import InputError, Mistakes, dotted, together
 from bikestab.files import folder_of
 from bikestab.formats.kinds import expected
 from bikestab.presets import preset_names
@@ -36,43 +35,7 @@ def load_config(path: str | Path, overrides: Sequence[str] = ()) -> ScanConfig:
     Raises InputError naming file, line, key, value and what is allowed.
     """
     with expected("config", path):
-        return parse_config(_read(path), overrides)
-
-
-def load_checked(path: str | Path) -> ScanConfig | CheckConfig:
-    """Read what ``bikestab check`` needs: a scan's YAML file, or one without a grid.
-
-    Raises as ``load_config``.
-    """
-    with expected("config", path):
-        return _for_check(_read(path))
-
-
-def checked(path: str | Path) -> tuple[ScanConfig | CheckConfig, list[Outcome], list[int]]:
-    """The same, what became of its expectations, and on which lines these are.
-
-    Raises as ``load_config``, also where there are none.
-    """
-    with expected("config", path):
-        document = _read(path)
-        config = _for_check(document)
-    try:
-        found = outcomes(config)
-    except InputError as error:
-        raise document.located(error) if error.key else error.at(document.file) from None
-    return config, found, [document.line(("expect", i)) for i in range(len(found))]
-
-
-def _for_check(document: yamltext.Document) -> ScanConfig | CheckConfig:
-    return parse_config(document) if _of_scan(document.data) else _parsed(document, {}, CheckConfig)
-
-
-def _of_scan(data: dict[str, Any]) -> bool:
-    """Whether it has keys that only a scan's config has, as they are or misspelt."""
-    known = ScanConfig.model_fields
-    more = known.keys() - CheckConfig.model_fields.keys()
-    meant = {nearest(str(key), known) for key in data if key not in known}
-    return bool(more & data.keys()) or any(f"did you mean {key!r}?" in meant for key in more)
+        return parse_config(read_document(path), overrides)
 
 
 def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> ScanConfig:
@@ -83,7 +46,7 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
         key, document = _override(document, override)
         places[key] = f"--set {override}"
     notes = tuple(bare_in_lists(document.data))
-    return _parsed(document, places, ScanConfig).with_text(document.text, notes)
+    return validated(document, places, ScanConfig).with_text(document.text, notes)
 
 
 def _check_once(overrides: Sequence[str]) -> None:
@@ -96,14 +59,16 @@ def _check_once(overrides: Sequence[str]) -> None:
                 raise InputError(problem, place=f"--set {overrides[i]}", hint="give one of them")
 
 
-def _read(path: str | Path) -> yamltext.Document:
+def read_document(path: str | Path) -> yamltext.Document:
+    """The YAML document of a config; InputError if it is none, and for the name of a preset."""
     if str(path) in preset_names() and not is_there(path):
         hint = f"'bikestab init --bicycle {path}' writes a config of it"
         raise InputError("is a bicycle, not a scan's config", place=str(path), hint=hint)
     return yamltext.read(path)
 
 
-def _parsed(document: yamltext.Document, places: dict[_Key, str], form: type[Form]) -> Form:
+def validated(document: yamltext.Document, places: dict[_Key, str], form: type[Form]) -> Form:
+    """The document as ``form`` has it; ``places`` say which keys options brought. Raises InputError."""
     mistakes = Mistakes()
     try:
         data = _plain(document.data)

@@ -4,13 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BeforeValidator, Field, PrivateAttr, ValidationInfo, WithJsonSchema, model_validator
+from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
 
 from bikestab.bicycle import Bicycle
-from bikestab.config.inplace import IN_PLACE
+from bikestab.config.checkconfig import (
+    Drawn,
+    Equations,
+    Expectations,
+    Fast,
+    Machine,
+    OwnDamping,
+    Slices,
+    Sweep,
+    Title,
+)
 from bikestab.config.meaning import drawn_around, yaml_text
 from bikestab.config.measured import in_lam_and_sigma
 from bikestab.config.members import (
@@ -28,69 +38,25 @@ from bikestab.config.parts import AnyGrid, Fields
 from bikestab.config.parts import Expectation as Expectation
 from bikestab.config.parts import Plane as Plane
 from bikestab.config.values import (
-    Damping,
-    NumberAxis,
     Strict,
     all_of,
     mistake,
 )
-from bikestab.config.variation import SWEPT, Ensemble, with_units
 from bikestab.errors import InputError, Mistakes, nearest
 from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.identity import identity
-from bikestab.model import Floats, Model
+from bikestab.model import Floats
 from bikestab.plausible import design_doubts
-from bikestab.presets import preset_names
 from bikestab.rider import left_behind
-from bikestab.units import shown
-
-
-def _bicycle(value: object) -> Bicycle:
-    if isinstance(value, Bicycle):
-        return value
-    raise mistake(f"{shown(value)} is no bicycle", "allowed: a preset, a path to a YAML file, or parameters")
-
-
-Machine: TypeAlias = Annotated[
-    Bicycle,
-    BeforeValidator(_bicycle),
-    WithJsonSchema({"anyOf": [{"type": "string", "examples": preset_names()}, IN_PLACE]}),
-    Field(description="a preset, a path to a file from this file's folder, or the parameters in place"),
-]
-OwnDamping: TypeAlias = Annotated[
-    Damping | None, Field(description="steering damping instead of the bicycle's own [kg m²/s]")
-]
-
-
-class CheckConfig(Strict):
-    """What ``bikestab check`` needs of a config that is none of a scan."""
-
-    title: Annotated[str, Field(strict=True)] = ""
-    bicycle: Machine
-    model: Model = "refined"
-    delta: OwnDamping = None
-    expect: list[Expectation] = []
-
-    @model_validator(mode="before")
-    @classmethod
-    def _measured(cls, given: Any, info: ValidationInfo) -> Any:
-        return in_lam_and_sigma(given, info.context)
-
-    @property
-    def machine(self) -> Bicycle:
-        """The bicycle with the damping that is used."""
-        return self.bicycle.with_delta(self.delta)
 
 
 class ScanConfig(Strict):
     """What ``bikestab scan`` computes and where it puts the result."""
 
-    title: Annotated[
-        str, Field(strict=True, description="printed on the pictures and stored in the volume")
-    ] = ""
+    title: Title = ""
     bicycle: Machine
-    model: Annotated[Model, Field(description="refined, or unrefined as before the 1981 paper")] = "refined"
+    model: Equations = "refined"
     delta: OwnDamping = None
     grid: AnyGrid
     fields: Fields = [
@@ -98,24 +64,12 @@ class ScanConfig(Strict):
         "violated",
         "growth_rate",
     ]
-    fast: Annotated[
-        bool,
-        Field(strict=True, description="growth_rate and ensembles by the compiled kernel"),
-    ] = False
-    sweep: Annotated[
-        dict[str, NumberAxis],
-        BeforeValidator(lambda given: with_units(given, "sweep")),
-        Field(
-            description="axes over parameters of the bicycle, in its notation",
-            json_schema_extra={"propertyNames": {"enum": SWEPT}},
-        ),
-    ] = {}
-    ensemble: Annotated[
-        Ensemble | None, Field(description="parameters drawn at random, for probabilities of stability")
-    ] = None
-    slices: Annotated[list[Plane], Field(description="pictures across one axis")] = []
+    fast: Fast = False
+    sweep: Sweep = {}
+    ensemble: Drawn = None
+    slices: Slices = []
     output: Annotated[str, Field(strict=True, min_length=1, description="folder, from the current directory")]
-    expect: Annotated[list[Expectation], Field(description="what 'bikestab check' compares")] = []
+    expect: Expectations = []
     _text: str = PrivateAttr("")
     _notes: tuple[str, ...] = PrivateAttr(())
 

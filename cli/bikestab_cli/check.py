@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from pathlib import Path
 from time import perf_counter
 
 import click
-from bikestab_cli.check_words import Checked, failures, outcome_records, outcome_table, suite_of
+from bikestab_cli.check_words import Checked, failures, outcome_records, outcome_table, suite_of, verdict
 from bikestab_cli.options import FILE, NAME, check_files, json_option, of_file
 from bikestab_cli.output import print_json, tell, tell_file
 from bikestab_cli.streams import tell_error
@@ -26,7 +27,8 @@ def command(configs: tuple[str, ...], junit: str | None, as_json: bool) -> None:
     or per cent of it ('1%'); 'stable: never' if there is none. Without lam and sigma it is of the bicycle's
     own design; any other parameters, such as mB: 85 or delta: 1, may have values of their own.
 
-    Every file is looked at. Exit code 0 if all hold, 1 if one does not, 2 if a file cannot be used.
+    Every file is looked at, once, and every entry. Exit code 0 if all hold, 1 if one does not, 2 if a file
+    or an entry cannot be used.
 
     \b
     Examples:
@@ -35,42 +37,40 @@ def command(configs: tuple[str, ...], junit: str | None, as_json: bool) -> None:
       bikestab check configs/quick.yaml --json
     """
     check_files(junit)
-    for name in configs:
-        if configs.count(name) > 1:
-            raise click.UsageError(f"{name} is given twice", click.get_current_context())
-    checked = [_checked(name) for name in configs]
+    once: dict[Path, str] = {}
+    for name in configs:  # globs may overlap
+        once.setdefault(Path(name).absolute(), name)
+    checked = [_checked(name) for name in once.values()]
     if junit:
         from bikestab.export.junit import save_junit
 
         save_junit([suite_of(each) for each in checked], junit)
-    failed = sum(not outcome.holds for each in checked for outcome in each.outcomes)
-    number = sum(len(each.outcomes) for each in checked)
+    errors = [error for each in checked for error in each.errors]
     with suppress(BrokenPipeError):  # the exit code is wanted also by those who read no more
         if as_json:
             results = [record for each in checked for record in outcome_records(each)]
             print_json({"results": results, **({"files": {"junit": junit}} if junit else {})})
         else:
-            if number:
+            if any(each.entries for each in checked):
                 tell("\n".join([outcome_table(checked), *failures(checked)]), junit)
             if junit:
                 tell_file(junit)
-    codes = [0, *(2 if isinstance(each.error, InputError) else 3 for each in checked if each.error)]
-    for each in checked:
-        if each.error:
-            tell_error(str(each.error))
-    if failed:
-        click.echo(f"{failed} of {number} expectations failed", err=True)
+    codes = [0, *(2 if isinstance(error, InputError) else 3 for error in errors)]
+    for error in errors:
+        tell_error(str(error))
+    failed, words = verdict(checked)
+    if words:
+        click.echo(words, err=True)
     click.get_current_context().exit(max(*codes, 1 if failed else 0))
 
 
 def _checked(name: str) -> Checked:
-    from bikestab.config.file import checked
+    from bikestab.config.checks import checked
 
     start = perf_counter()
     try:
         with of_file(name):
-            config, found, lines = checked(name)
-            whose = config.machine.name, config.model
-            return Checked(name, *whose, found, lines, None, perf_counter() - start)
+            config, entries = checked(name)
+            return Checked(name, config.machine.name, config.model, entries, None, perf_counter() - start)
     except BikestabError as error:
-        return Checked(name, "", "", [], [], error, perf_counter() - start)
+        return Checked(name, "", "", [], error, perf_counter() - start)

@@ -11,8 +11,9 @@ from bikestab_cli.output import DESIGN_HEAD, certain, design_columns, prose, tab
 from bikestab.errors import BikestabError, InputError
 
 if TYPE_CHECKING:
+    from bikestab.config.checks import Entry
     from bikestab.config.expectations import Edge, Outcome
-    from bikestab.export.junit import Suite
+    from bikestab.export.junit import Case, Suite
 
 
 class Checked(NamedTuple):
@@ -21,17 +22,54 @@ class Checked(NamedTuple):
     name: str
     bicycle: str
     model: str
-    outcomes: list[Outcome]
-    lines: list[int]  # of the file, on which these are
+    entries: list[Entry]
     error: BikestabError | None
     seconds: float
+
+    @property
+    def outcomes(self) -> list[tuple[str, int, Outcome]]:
+        """The expectations that can be used, with the name and the line of each."""
+        return [
+            (f"expect[{i}]", line, result)
+            for i, (line, result) in enumerate(self.entries)
+            if not isinstance(result, BikestabError)
+        ]
+
+    @property
+    def unusable(self) -> list[BikestabError]:
+        """Why the others cannot be used."""
+        return [each.result for each in self.entries if isinstance(each.result, BikestabError)]
+
+    @property
+    def errors(self) -> list[BikestabError]:
+        """Why the file, or some of its entries, cannot be used."""
+        return [self.error] if self.error else self.unusable
+
+
+def verdict(checked: Sequence[Checked]) -> tuple[int, str]:
+    """How many expectations failed; and in words, where there were any, also what cannot be used."""
+    holds = [outcome.holds for each in checked for _, _, outcome in each.outcomes]
+    failed = holds.count(False)
+    counts = (
+        (sum(bool(each.error) for each in checked), "file", "files"),
+        (sum(len(each.unusable) for each in checked), "entry", "entries"),
+    )
+    unusable = [f"{number} {one if number == 1 else many}" for number, one, many in counts if number]
+    if not failed and not (holds and unusable):
+        return failed, ""
+    others = f", {' and '.join(unusable)} cannot be used" if unusable else ""
+    return failed, f"{failed} of {len(holds)} expectations failed{others}"
 
 
 def outcome_table(checked: list[Checked]) -> str:
     lam, sigma, offset = DESIGN_HEAD
     rows = []
     for each in checked:
-        rows += [_row(each.name, outcome) for outcome in each.outcomes]
+        for i, (line, result) in enumerate(each.entries):
+            if isinstance(result, BikestabError):
+                rows.append([f"{each.name}\nline {line}: expect[{i}]", "", "", "", "", "ERROR"])
+            else:
+                rows.append(_row(each.name, result))
         if each.error:
             rows.append([each.name, "", "", "", "", "ERROR"])
     return table(["config", lam, sigma + offset, "expected\n[m/s]", "found\n[m/s]", ""], rows, fold=0)
@@ -73,18 +111,22 @@ def _within(tolerance: float | str) -> str:
 
 def outcome_records(checked: Checked) -> list[dict[str, Any]]:
     if checked.error:
-        mistakes = [str(each) for each in _mistakes(checked.error)]
-        return [{"config": checked.name, "error": str(checked.error), "mistakes": mistakes}]
+        return [{"config": checked.name, **_problem_record(checked.error)}]
     whose = {"config": checked.name, "bicycle": checked.bicycle, "model": checked.model}
     return [
+        {**whose, "line": line, **_problem_record(result)} if isinstance(result, BikestabError) else
         {
-            **whose, "line": line, **_over(outcome), **outcome.design, "expected": _expected(outcome),
-            "intervals": outcome.found, "nearest": outcome.nearest,
-            "edges": [_edge_record(edge) for edge in outcome.edges], "holds": outcome.holds,
-            "problem": problem_of(outcome),
+            **whose, "line": line, **_over(result), **result.design, "expected": _expected(result),
+            "intervals": result.found, "nearest": result.nearest,
+            "edges": [_edge_record(edge) for edge in result.edges], "holds": result.holds,
+            "problem": problem_of(result),
         }
-        for outcome, line in zip(checked.outcomes, checked.lines, strict=True)
+        for line, result in checked.entries
     ]  # fmt: skip
+
+
+def _problem_record(error: BikestabError) -> dict[str, Any]:
+    return {"error": str(error), "mistakes": [str(each) for each in _mistakes(error)]}
 
 
 def _mistakes(error: BikestabError) -> Sequence[BikestabError]:
@@ -108,9 +150,9 @@ def _expected(outcome: Outcome) -> dict[str, Any]:
 def failures(checked: Sequence[Checked]) -> list[str]:
     """Lines for each expectation that failed: which it is, what was found, and what was expected."""
     return [
-        prose(f"{each.name}, line {line}: expect[{number}]{_with(outcome)}: {problem_of(outcome)}")
+        prose(f"{each.name}, line {line}: {entry}{_with(outcome)}: {problem_of(outcome)}")
         for each in checked
-        for number, (outcome, line) in enumerate(zip(each.outcomes, each.lines, strict=True))
+        for entry, line, outcome in each.outcomes
         if not outcome.holds
     ]
 
@@ -167,18 +209,33 @@ def _edge_record(edge: Edge) -> dict[str, Any]:
 
 
 def suite_of(checked: Checked) -> Suite:
-    from bikestab.export.junit import Case, Suite
+    from bikestab.export.junit import Suite
 
     if checked.error:
-        message, each = str(checked.error).replace("\n", "; "), map(str, _mistakes(checked.error))
-        unusable = Case("config", message, "\n".join(each), checked.seconds, True)
-        return Suite(checked.name, [unusable], checked.seconds)
-    cases = []
-    for number, (outcome, line) in enumerate(zip(checked.outcomes, checked.lines, strict=True)):
-        _, lam, sigma, wanted, found, _ = (cell.replace("\n", " ") for cell in _row("", outcome))
-        others = _others(outcome)
-        design = ", ".join([f"lam {lam.split()[0]}", f"sigma {sigma.split()[0]}", *others])
-        text = f"expected [m/s]: {wanted}\nfound [m/s]: {found}\nat {checked.name}, line {line}"
-        text = "\n".join([f"with {', '.join(others)}", text]) if others else text
-        cases.append(Case(f"expect[{number}]: {design}", problem_of(outcome), text, outcome.seconds))
+        return Suite(
+            checked.name, [_unusable_case("config", checked.error, checked.seconds)], checked.seconds
+        )
+    cases = [
+        _unusable_case(f"expect[{i}]", result, 0.0) if isinstance(result, BikestabError)
+        else _case(f"expect[{i}]", result, f"{checked.name}, line {line}")
+        for i, (line, result) in enumerate(checked.entries)
+    ]  # fmt: skip
     return Suite(checked.name, cases, checked.seconds)
+
+
+def _unusable_case(name: str, error: BikestabError, seconds: float) -> Case:
+    from bikestab.export.junit import Case
+
+    message = str(error).replace("\n", "; ")
+    return Case(name, message, "\n".join(map(str, _mistakes(error))), seconds, True)
+
+
+def _case(name: str, outcome: Outcome, place: str) -> Case:
+    from bikestab.export.junit import Case
+
+    _, lam, sigma, wanted, found, _ = (cell.replace("\n", " ") for cell in _row("", outcome))
+    others = _others(outcome)
+    design = ", ".join([f"lam {lam.split()[0]}", f"sigma {sigma.split()[0]}", *others])
+    text = f"expected [m/s]: {wanted}\nfound [m/s]: {found}\nat {place}"
+    text = "\n".join([f"with {', '.join(others)}", text]) if others else text
+    return Case(f"{name}: {design}", problem_of(outcome), text, outcome.seconds)

@@ -96,19 +96,19 @@ def _volume(name: str, asked: Asked) -> Found:
 
 
 def _config(name: str, asked: Asked) -> Found:
-    from bikestab.config.file import load_checked
+    from bikestab.config.checks import load_checked
+    from bikestab.config.members import members, swept_axes
     from bikestab.config.scanconfig import ScanConfig
     from bikestab.sweeps import chosen
 
     config = load_checked(name)
-    if not isinstance(config, ScanConfig):
-        warn(config.machine)
-        return Found(_side(name, config.machine, config.model, asked.given), None, ())
-    swept = {axis.name: axis.values for axis in config.axes}
+    swept = {axis.name: axis.values for axis in swept_axes(config.bicycle, config.sweep)}
     numbers = chosen(swept, {axis: v for axis, v in asked.machine.items() if axis in swept}, name)
     values = {axis: float(swept[axis][i]) for axis, i in numbers.items()}
-    bicycle = next(member.bicycle for member in config.members if member.values == values)
+    bicycle = next(each.bicycle for each in members(config.machine, config.sweep) if each.values == values)
     warn(bicycle)
+    if not isinstance(config, ScanConfig):
+        return Found(_side(name, bicycle, config.model, asked.given), None, [*swept])
     grid = config.grid
     x, y, _ = grid.names
     ends = tuple(grid.ends(axis) for axis in grid.names)

@@ -180,7 +180,12 @@ SCHEMAS: dict[str, Schema] = {
                 "a file that cannot be used", config=words("the file"), error=words("why"),
                 mistakes=some(TEXTS, "all that is wrong, each with file, line, key and what is allowed"),
             ),
-            text="an expectation, or a file that cannot be used",
+            record(
+                "an expectation that cannot be used", config=words("the file"), line=whole("of the file"),
+                bicycle=words("its bicycle"), model=MODEL, error=words("why"),
+                mistakes=some(TEXTS, "all that is wrong with it, as above"),
+            ),
+            text="an expectation, or a file or an expectation that cannot be used",
         )
     ),
     "compare": COMPARE,

@@ -9,6 +9,7 @@ import junitparser
 import pytest
 from bikestab_cli.check_words import problem_of
 from ruamel.yaml import YAML
+from wcwidth import wcswidth
 
 from bikestab.config.expectations import nearest_interval
 from bikestab.config.parts import Expectation
@@ -59,7 +60,6 @@ def test_per_cent_are_of_what_is_expected():
         (SMALL.format("{m1: much, V1: 4}"), "expect[0].m1"),
         (SMALL.format("{mB: 90, lam: 0.2, trail: 1, offset: 1cm, V1: 4}"), "expect[0]"),
         (SMALL.format("{V1: 4}") + "grids: {}\n", "did you mean 'grid'?"),
-        (SMALL.format("{V1: 4}") + "slices: []\n", "grid: missing"),
         ("bicycle: meijaard2007\n", "has no expectations"),
         ("expect: [{V1: 4}]\n", "bicycle: missing"),
     ],
@@ -77,7 +77,7 @@ def test_all_files_are_looked_at_and_the_worst_code_is_returned(bikestab):
     code, out, err = bikestab("check", "none.yaml", "bad.yaml", "good.yaml")
     assert code == 2
     assert err.startswith("error: none.yaml: there is no such file\n")
-    assert err.endswith("1 of 3 expectations failed\n")
+    assert err.endswith("1 of 3 expectations failed, 1 file cannot be used\n")
     assert re.findall("holds|FAILED|ERROR", out) == ["ERROR", "FAILED", "holds", "holds"]
     assert bikestab("check", "bad.yaml", "good.yaml")[0] == 1
     found = json.loads(bikestab("check", "none.yaml", "bad.yaml", "good.yaml", "--json")[1])["results"]
@@ -180,11 +180,97 @@ def test_the_jobs_of_the_page_run(bikestab, monkeypatch):
         assert junitparser.JUnitXml.fromfile("results.xml").failures == 0
 
 
-def test_a_config_given_twice_is_refused(bikestab):
+def test_a_config_given_twice_is_looked_at_once(bikestab):
+    """Globs may overlap; the exit code is that of its expectations."""
     write("good.yaml", "V1: 4.29, within: 1%")
-    code, out, err = bikestab("check", "good.yaml", "good.yaml")
-    assert (code, out) == (2, "")
-    assert "good.yaml is given twice" in err
+    write("bad.yaml", "V1: 5")
+    code, out, err = bikestab("check", "good.yaml", "./good.yaml", str(Path("good.yaml").absolute()))
+    assert (code, err) == (0, "")
+    assert out == bikestab("check", "good.yaml")[1]
+    code, out, err = bikestab("check", "good.yaml", "bad.yaml", "good.yaml")
+    assert (code, err) == (1, "1 of 2 expectations failed\n")
+    assert out == bikestab("check", "good.yaml", "bad.yaml")[1]
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        "sweep: {mB: [60, 85]}", "slices: [{lam: 0.1}]", "output: out", "fast: true",
+        "ensemble: {samples: 9, mB: {normal: [85, 2]}}", "fields: [stable]\ntitle: x",
+        "sweep: {delta: {start: 0, stop: 2, num: 3}}\nensemble: {samples: 9, mB: {normal: [85, 2]}}",
+    ],
+)  # fmt: skip
+def test_keys_of_a_scan_without_a_grid(bikestab, more):
+    write("a.yaml", "V1: 4.2924", "mB: 100, V1: 4.513")
+    Path("a.yaml").write_text(f"{Path('a.yaml').read_text('utf-8')}{more}\n", "utf-8")
+    code, out, err = bikestab("check", "a.yaml", "--json")
+    assert (code, err) == (0, "")
+    assert [each["holds"] for each in json.loads(out)["results"]] == [True, True]
+    at = ["--at", "mB=85"] if "sweep: {mB" in more else ["--at", "delta=0"] if "sweep" in more else []
+    assert bikestab("compare", "meijaard2007", "a.yaml", *at, "--within", "1%")[0] == 0
+    assert not at or bikestab("compare", "meijaard2007", "a.yaml")[0] == 2  # which machine?
+
+
+@pytest.mark.parametrize("more", ["sweep: {mBB: [60]}", "ensemble: {samples: few}", "fields: [growth]"])
+def test_their_mistakes_are_told_all_the_same(bikestab, more):
+    Path("a.yaml").write_text(f"{SMALL.format('{V1: 4.2924}')}{more}\n", "utf-8")
+    code, _, err = bikestab("check", "a.yaml")
+    assert (code, "line 3" in err, "grid" in err) == (2, True, False)
+
+
+UNUSABLE = {  # entries that cannot be used, and what is said of them
+    "V1: much": "expect[1].V1: 'much' is not",
+    "mb: 3, V1: 4": "expect[1].mb: unknown key",
+    "R1: -3, V1: 4": "expect[1].R1",
+    "lam: 0.1, within: 0%, V1: 4": "expect[1].within: 0% is out of range",
+    "head_angle: 70deg, trail: 1, offset: 1cm, V1: 4": "expect[1]",
+}
+
+
+@pytest.mark.parametrize("entry", UNUSABLE)
+def test_an_entry_that_cannot_be_used_hides_no_other(bikestab, entry):
+    """The others are judged, in the table, in JSON and in JUnit, at their own lines and numbers."""
+    entries = ["V1: 4.2924", entry, "V1: 5", "trail: 80mm, head_angle: 72deg, V1: 4.2924"]
+    text = "".join(f"  - {{{each}}}\n" for each in entries)
+    Path("a.yaml").write_text(f"bicycle: meijaard2007\nexpect:\n{text}", "utf-8")
+    code, out, err = bikestab("check", "a.yaml", "--junit", "a.xml")
+    assert code == 2
+    assert re.findall("holds|FAILED|ERROR", out) == ["holds", "ERROR", "FAILED", "holds"]
+    assert re.search(r"^line 4: expect\[1\]", out, re.M)
+    assert "a.yaml, line 5: expect[2]: V1 is 4.29" in out
+    assert err.startswith("error: a.yaml, line 4: ")
+    assert UNUSABLE[entry] in err
+    assert err.endswith("1 of 3 expectations failed, 1 entry cannot be used\n")
+    assert all(len(line) <= 80 for line in out.splitlines())
+    ((good, bad, failed, last),) = junitparser.JUnitXml.fromfile("a.xml")
+    assert [good.is_passed, bad.is_passed, failed.is_passed, last.is_passed] == [True, False, False, True]
+    assert isinstance(bad.result[0], junitparser.Error)
+    assert isinstance(failed.result[0], junitparser.Failure)
+    assert UNUSABLE[entry] in bad.result[0].message
+    found = json.loads(bikestab("check", "a.yaml", "--json")[1])["results"]
+    assert [each["line"] for each in found] == [3, 4, 5, 6]
+    assert [each.get("holds") for each in found] == [True, None, False, True]
+    assert UNUSABLE[entry] in found[1]["error"]
+    assert found[1]["mistakes"]
+
+
+def test_the_last_line_counts_what_cannot_be_used(bikestab):
+    write("good.yaml", "V1: 4.29, within: 1%")
+    write("bad.yaml", "V1: 5")
+    code, _, err = bikestab("check", "none.yaml", "bad.yaml", "good.yaml", "nothing.yaml")
+    assert (code, err.splitlines()[-1]) == (2, "1 of 2 expectations failed, 2 files cannot be used")
+    code, _, err = bikestab("check", "none.yaml", "good.yaml")
+    assert (code, err.splitlines()[-1]) == (2, "0 of 1 expectations failed, 1 file cannot be used")
+
+
+def test_names_that_terminals_show_otherwise_keep_the_columns(bikestab):
+    """A control character, one that is two columns wide, and bytes that are no text."""
+    names = ["a.yaml", "b\x01.yaml", "自転車.yaml", "c\udcff.yaml"]
+    for name in names:
+        write(name, "V1: 4.2924")
+    lines = bikestab("check", *names)[1].splitlines()
+    assert len({wcswidth(line.rpartition("holds")[0]) for line in lines if "holds" in line}) == 1
+    assert all(0 < wcswidth(line) <= 80 for line in lines if line)
 
 
 def test_other_parameters_are_told_of(bikestab):

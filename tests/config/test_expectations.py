@@ -5,7 +5,8 @@ import math
 import pytest
 
 from bikestab import yamltext
-from bikestab.config.expectations import outcomes
+from bikestab.config.checks import checked
+from bikestab.config.expectations import outcome_of
 from bikestab.config.file import parse_config
 from bikestab.errors import InputError
 
@@ -18,7 +19,8 @@ expect: [{}]
 
 def found(*entries, bicycle="dikarev1981"):
     text = CONFIG.format(bicycle, ", ".join(f"{{{entry}}}" for entry in entries))
-    return outcomes(parse_config(yamltext.parse(text, "a.yaml")))
+    config = parse_config(yamltext.parse(text, "a.yaml"))
+    return [outcome_of(config, expected, ("expect", i)) for i, expected in enumerate(config.expect)]
 
 
 def test_an_outcome_says_what_was_found():
@@ -56,6 +58,8 @@ def test_the_bicycles_own_design():
     assert "no sigma of its own" in caught.value.problem
 
 
-def test_no_expectations():
+def test_no_expectations(tmp_path):
+    path = tmp_path / "a.yaml"
+    path.write_text(CONFIG.format("dikarev1981", ""), "utf-8")
     with pytest.raises(InputError, match="has no expectations"):
-        found()
+        checked(path)

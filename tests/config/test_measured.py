@@ -6,7 +6,7 @@ import jsonschema
 import pytest
 from ruamel.yaml import YAML
 
-from bikestab.config.expectations import outcomes
+from bikestab.config.expectations import outcome_of
 from bikestab.config.file import config_schema
 from tests.configs import load, message
 
@@ -40,7 +40,7 @@ def test_they_are_lam_and_sigma():
     assert [plane.fixed[0] for plane in config.slices] == ["lam", "sigma", "V"]
     assert config.slices[0].lam == pytest.approx(math.pi / 10, rel=1e-15)
     assert config.slices[1].sigma == pytest.approx(0.05, rel=1e-15)
-    assert all(outcome.holds for outcome in outcomes(config))
+    assert all(outcome_of(config, expected, ()).holds for expected in config.expect)
 
 
 def test_an_end_without_a_unit_takes_that_of_the_other():
