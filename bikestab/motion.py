@@ -140,9 +140,9 @@ def leaves(found: Motion, angle: float = LARGE) -> float | None:
     return float(np.interp(angle, size[k - 1 : k + 1], found.t[k - 1 : k + 1])) if k else float(found.t[0])
 
 
-def before_a_quarter_turn(motion: Callable[[Floats], Motion], until: float, times: int = 501) -> Motion:
-    """A motion, given for times, from 0 to ``until`` [s], or to where roll or steer is a quarter turn."""
-    found = motion(np.linspace(0, until, times))
+def before_a_quarter_turn(motion: Callable[[Floats], Motion], found: Motion) -> Motion:
+    """A motion, given for times, as it was ``found`` or to where roll or steer is a quarter turn before."""
+    times = len(found.t)
     while (end := leaves(found, QUARTER)) is not None:
         shown = int(np.searchsorted(found.t, end))
         if shown >= _ENOUGH or not shown:

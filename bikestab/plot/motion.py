@@ -15,9 +15,6 @@ from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import Curve, Line, label_curves, lines_for
 
 _REAR, _FRONT = Line("#0072b2", "-"), Line("#d55e00", (0, (5, 1.5)))  # and of what they do: roll and steer
-_LARGE = (
-    2 * LARGE
-)  # rad: of several machines one that moves more leaves the picture, not to flatten the others
 _STANDING = 0.5  # m, or rad: what is drawn around a machine that does not move
 _LEAST = 1e-300  # of less no axis is made
 _LEFT = "0.92"  # where the linear model has been left

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from bikestab_cli.design_box import Box, box_options
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
-from bikestab_cli.options import FILE, PICTURE, check_files, free_option, json_option, sd_option
+from bikestab_cli.options import FILE, PICTURE, check_curves, check_files, free_option, json_option, sd_option
 from bikestab_cli.output import print_json, tell, tell_file
 from bikestab_cli.quantities import Ends
 from bikestab_cli.several import Chosen, Values, machines_chosen, record_of, several_machines
@@ -126,6 +126,7 @@ def _tell_best(
     asked = box.wanted(able, model)
     if output:
         check_picture(*box.ends.values())
+    check_curves(output, len(able))
     check_files(csv_file, output)
     bests, curves = search(asked, output)
     found = list(zip(able, asked, bests, strict=True))

@@ -11,8 +11,9 @@ from bikestab_cli.designless import end_of_all, lacking, results_of_all
 from bikestab_cli.eigen_along import along
 from bikestab_cli.eigen_view_options import View, view_options
 from bikestab_cli.eigen_views import viewed
-from bikestab_cli.options import FILE, PICTURE, check_files, json_option
+from bikestab_cli.options import FILE, PICTURE, check_curves, check_files, json_option
 from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.over import check_meanings, curves_of
 from bikestab_cli.quantities import SPEEDS
 from bikestab_cli.several import Values, check_varied, machines_chosen, record_of, several_machines
 
@@ -98,7 +99,9 @@ def command(
     machines = machines_chosen(bicycle_name, delta, changes, given)
     for machine in machines:
         check_varied(machine.bicycle, view.over, changes, delta)
+    check_meanings(machines, view.over)
     lacks = lacking(machines, [*given, *view.over])
+    check_curves(output, lacks.count("") * curves_of(view.over))
     if view.kind:
         answer = viewed(machines, lacks, given, view, model)
     else:

@@ -45,10 +45,10 @@ def viewed(
     if view.kind == "over":
         rest = iter(found)
         ranges = [[] if lack else [part for each in next(rest) for part in each.ranges] for lack in lacks]
-    return Answer(text, results, rows, lambda: _drawn(every, view), ranges)
+    return Answer(text, results, rows, lambda: _drawn(every, view, model), ranges)
 
 
-def _drawn(found: Sequence[Shown], view: View) -> Any:
+def _drawn(found: Sequence[Shown], view: View, model: Model) -> Any:
     """The picture: of one machine all its eigenvalues or angles, of several a curve or a row each."""
     common, names = told_apart([each.machine for each in found])
     (first, *others), each = found, [(name, own.found) for name, own in zip(names, found, strict=True)]
@@ -59,9 +59,10 @@ def _drawn(found: Sequence[Shown], view: View) -> Any:
     if view.push:
         from bikestab.plot.motion import draw_motion, draw_motions
 
+        motions = [_before_a_quarter_turn(own, view, model) for own in found]
         if others:
-            return draw_motions(each, view.push, common)
-        return draw_motion(first.machine.words, first.found, view.until, view.push)
+            return draw_motions([*zip(names, motions, strict=True)], view.push, common)
+        return draw_motion(first.machine.words, motions[0], view.until, view.push)
     from bikestab.plot.against import draw_against
     from bikestab.plot.axes import label_of
     from bikestab.plot.growth import draw_growth_against
@@ -112,17 +113,27 @@ def _motion(machine: Chosen, design: Any, V: float, view: View, model: Model) ->
     import numpy as np
 
     from bikestab.export.motions import MOTION, motion_blocks
-    from bikestab.motion import before_a_quarter_turn, motion
+    from bikestab.motion import motion
 
-    def at(times: Any) -> Any:
-        return motion(machine.bicycle, V, view.push, times, design["lam"], design["sigma"], model=model)
-
-    found = at(np.linspace(0, view.until, _TIMES))
+    times = np.linspace(0, view.until, _TIMES)
+    found = motion(machine.bicycle, V, view.push, times, design["lam"], design["sigma"], model=model)
     columns = next(motion_blocks(found))
     record = {**design, "at": V, "push": view.push, "motion": {k: x.tolist() for k, x in columns.items()}}
     text = told_motion(machine, design, found, view.push, model)
-    drawn = before_a_quarter_turn(at, view.until)
-    return Shown(machine, drawn, [record], text, MOTION, lambda: motion_blocks(found))
+    return Shown(machine, found, [record], text, MOTION, lambda: motion_blocks(found))
+
+
+def _before_a_quarter_turn(shown: Shown, view: View, model: Model) -> Any:
+    """What is drawn of a motion."""
+    from bikestab.motion import before_a_quarter_turn, motion
+
+    (record,) = shown.results
+    design = record["lam"], record["sigma"]
+
+    def at(times: Any) -> Any:
+        return motion(shown.machine.bicycle, record["at"], view.push, times, *design, model=model)
+
+    return before_a_quarter_turn(at, shown.found)
 
 
 def _speed_over(bicycle: Bicycle, given: Given, model: Model) -> float:

@@ -64,15 +64,6 @@ class Name(click.ParamType):
 NAME, FILE, PICTURE, BICYCLE = Name(), Name("file"), Name("file", "picture"), Name("bicycle")
 
 
-def machine_options(function: F) -> F:
-    """--bicycle, --model and --delta."""
-    return click.option(
-        "--bicycle", "bicycle_name", type=BICYCLE, metavar="NAME|FILE", default=DEFAULT_BICYCLE,
-        show_default=True,
-        help="A bicycle that comes with bikestab (see 'bikestab bicycles'), a file of one, or a volume.",
-    )(equation_options(function))  # fmt: skip
-
-
 def equation_options(function: F) -> F:
     """--rider, --model and --delta."""
     for option in (
@@ -177,6 +168,14 @@ def check_files(*names: str | None) -> None:
         if places.count(place) > 1:
             raise click.UsageError(f"{name} is asked for twice", click.get_current_context())
         check_kept(name)
+
+
+def check_curves(output: str | None, number: int) -> None:
+    """Refuse a picture of more curves than can be told apart, before anything is computed."""
+    if output and number > 1:
+        from bikestab.plot.sidelabels import lines_for
+
+        lines_for(number)
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from bikestab_cli.chosen import Given, design_options
 from bikestab_cli.designless import end_of_all, lacking, results_of_all, told_without, with_design
-from bikestab_cli.options import FILE, PICTURE, check_files, json_option, sd_option
+from bikestab_cli.options import FILE, PICTURE, check_curves, check_files, json_option, sd_option
 from bikestab_cli.output import print_json, prose, tell, tell_file
 from bikestab_cli.sensitivity_found import Found, found_of
 from bikestab_cli.several import Values, machines_chosen, record_of, several_machines
@@ -85,6 +85,7 @@ def command(
     machines = machines_chosen(bicycle_name, delta, changes, given)
     check_files(csv_file, output)
     lacks = lacking(machines, given)
+    check_curves(output, lacks.count(""))
     found = found_of(with_design(machines, lacks), given, hold, model, deviations[1])
     if csv_file:
         _save(found, csv_file)

@@ -55,7 +55,7 @@ def side_by_side(found: Sequence[Found], what: str) -> str:
         for i, (each, one) in enumerate(zip(found, machines, strict=True))
     ]
     first = found[0].of
-    top = [heading_of_all([each.of.bicycle for each in found], first.model)]
+    top = [heading_of_all([each.of.bicycle for each in found], first.model, found[0].machine.set)]
     top += dict.fromkeys(HELD[each.of.hold] for each in found)
     effects = [one.effects for one in machines]
     names = by_size(effects)

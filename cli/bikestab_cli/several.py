@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 Values = dict[str, list[float]]
 MOST_MACHINES = 1000
+MOST_DIGITS = 17  # that tell all doubles apart
 FEWEST_DIGITS = 4  # of a value in a picture; tables have six, and both more where it takes more
 
 
@@ -53,7 +54,7 @@ class Chosen(NamedTuple):
 def told_apart(machines: Sequence[Chosen]) -> tuple[str, list[str]]:
     """What machines have in common that a picture's title says, and what tells each from the others there."""
     names = {machine.bicycle.name for machine in machines}
-    if len(names) == 1 and all(machine.set for machine in machines):
+    if len(machines) > 1 and len(names) == 1 and all(machine.set for machine in machines):
         return names.pop(), [_with_units(machine) for machine in machines]
     return "", [machine.words for machine in machines]
 
@@ -90,16 +91,16 @@ def _values(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -
     return values
 
 
-def _digits(changes: Values) -> int:
+def digits_of(changes: Values) -> int:
     """How many digits tell all values of each parameter apart."""
-    return next(
-        digits
-        for digits in range(FEWEST_DIGITS, 18)  # 17 tell all doubles apart
-        if all(
-            len({f"{as_read(name, x, '')[0]:.{digits}g}" for x in values}) == len(values)
+    for digits in range(FEWEST_DIGITS, MOST_DIGITS):
+        texts = {
+            name: {f"{as_read(name, x, '')[0]:.{digits}g}" for x in values}
             for name, values in changes.items()
-        )
-    )
+        }
+        if all(len(texts[name]) == len({*values}) for name, values in changes.items()):
+            return digits
+    return MOST_DIGITS
 
 
 def several_machines(function: F) -> F:
@@ -146,7 +147,7 @@ def machines_chosen(
                 raise click.BadParameter(problem, param_hint="--set") from None
             if values:
                 warn(bicycle)
-            machines.append(Chosen(bicycle, values, _digits(changes)))
+            machines.append(Chosen(bicycle, values, digits_of(changes)))
     return machines
 
 

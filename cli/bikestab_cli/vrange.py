@@ -11,6 +11,7 @@ from bikestab_cli.chosen import Given, design_options, designs_chosen, doubt_des
 from bikestab_cli.designless import end_of_all, lacking, record_without
 from bikestab_cli.options import (
     PICTURE,
+    check_curves,
     check_files,
     json_option,
     over_option,
@@ -18,6 +19,7 @@ from bikestab_cli.options import (
     told_as_options,
 )
 from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.over import check_meanings, curves_of
 from bikestab_cli.several import (
     Chosen,
     Values,
@@ -108,12 +110,17 @@ def command(
             raise click.UsageError(problem, click.get_current_context())
         for machine in machines:
             check_varied(machine.bicycle, over, changes, delta)
-        show_over(machines, over, model, deviations, output, as_json)
+        check_meanings(machines, over)
+        lacks = lacking(machines, over)
+        check_curves(output, lacks.count("") * curves_of(over))
+        show_over(machines, lacks, over, model, deviations, output, as_json)
+        end_of_all(machines, lacks)
         return
     axis = _axis_drawn(given) if output else ""
     single = is_single(given)
-    helped = as_json or (single and len(machines) <= _HELPED)
+    helped = as_json or (single and len(machines) <= _HELPED and not output)
     lacks = lacking(machines, given)
+    check_curves(output, lacks.count(""))
     found = [
         Found(machine, [], [], lack) if lack else _found(machine, given, model, deviations, helped)
         for machine, lack in zip(machines, lacks, strict=True)

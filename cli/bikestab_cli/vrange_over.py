@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
+from bikestab_cli.designless import results_of_all, told_without, with_design
 from bikestab_cli.options import told_as_options
 from bikestab_cli.output import print_json, tell_file
+from bikestab_cli.over import along, beside
 from bikestab_cli.parameters import MOST_VALUES
 from bikestab_cli.several import Chosen, record_of, told_apart
 from bikestab_cli.spreads import spreads, with_spreads
@@ -24,30 +26,33 @@ Points = list[tuple[dict[str, float], "Answer"]]
 
 
 def show_over(
-    machines: list[Chosen], over: dict[str, list[float]], model: Model,
+    machines: list[Chosen], lacks: Sequence[str], over: dict[str, list[float]], model: Model,
     deviations: tuple[bool, dict[str, float]], output: str | None, as_json: bool,
 ) -> None:  # fmt: skip
-    """Tell of every combination of the parameters' values, or draw it."""
+    """Tell of every combination of the parameters' values, or draw it, but of machines without a design."""
     if math.prod(len(values) for values in over.values()) > MOST_VALUES:
         context = click.get_current_context()
         raise click.UsageError(f"--over gives more than {MOST_VALUES} designs", context)
-    points = [_points(machine, over, model) for machine in machines]
-    known = [
-        _spreads(machine, each, model, deviations) for machine, each in zip(machines, points, strict=True)
-    ]
+    able = with_design(machines, lacks)
+    points = [_points(machine, over, model) for machine in able]
+    known = [_spreads(machine, each, model, deviations) for machine, each in zip(able, points, strict=True)]
     files = {}
     if output:
-        _draw(machines, points, known, over, output)
+        _draw(able, points, known, over, model, output)
         files["picture"] = output
     if as_json:
         answers = [[{"over": point, **answer} for point, answer in each] for each in points]
         results = [with_spreads(each, own) for each, own in zip(answers, known, strict=True)]
-        print_json(record_of(machines, model, results, files))
+        every = results_of_all(machines, lacks, results)
+        print_json(
+            record_of(machines, model, [[{**x, "nearest": None} for x in own] for own in every], files)
+        )
     elif output:
         tell_file(output)
     else:
-        parts = zip(machines, points, known, strict=True)
-        click.echo("\n\n".join(told_over(machine, each, model, own) for machine, each, own in parts))
+        parts = zip(able, points, known, strict=True)
+        tables = [told_over(machine, each, model, own) for machine, each, own in parts]
+        click.echo("\n\n".join([*tables, *told_without(machines, lacks)]))
 
 
 def _points(machine: Chosen, over: dict[str, list[float]], model: Model) -> Points:
@@ -75,7 +80,7 @@ def _spreads(
 
 def _draw(
     machines: Sequence[Chosen], points: Sequence[Points], known: Sequence[list[Spread]],
-    over: Mapping[str, list[float]], output: str,
+    over: Mapping[str, list[float]], model: Model, output: str,
 ) -> None:  # fmt: skip
     """Over the parameter with the most values, a curve for each value of the other one."""
     from bikestab.plot.axes import label_of
@@ -83,17 +88,19 @@ def _draw(
     from bikestab.plot.files import save
     from bikestab.variants import parameter_of
 
-    along = max(over, key=lambda name: len(over[name]))
-    axis = {"head_angle": "head_angle_deg"}.get(along, along) if len(over[along]) > 1 else ""
-    curves: dict[str, list[dict[str, Any]]] = {}
-    name, apart = told_apart(machines) if len(machines) > 1 else (machines[0].words, [""])
-    for machine, own_name, each, spreads_ in zip(machines, apart, points, known, strict=True):
+    name = along(over)
+    axis = {"head_angle": "head_angle_deg"}.get(name, name) if len(over[name]) > 1 else ""
+    whose, curves = [], []
+    for machine, each, spreads_ in zip(machines, points, known, strict=True):
         answers = with_spreads([answer for _, answer in each], spreads_)
-        for (point, _), answer in zip(each, answers, strict=True):
-            others = [parameter_of(machine.bicycle, name) for name in point if name != along or not axis]
-            values = [f"{p.name} = {point[p.name]:.4g} {p.unit}".removesuffix(" 1") for p in others]
-            whose = [own_name] if own_name else [] if values else [machine.words]
-            own = {} if axis in AXES else {along: point[along]}
-            curves.setdefault(", ".join([*whose, *values]), []).append({**answer, **own})
-    label = "" if axis in AXES else label_of(parameter_of(machines[0].bicycle, along))
-    save(draw_ends(list(curves.items()), axis, label, name), Path(output))
+        for others, own in beside(machine, over, name if axis else ""):
+            at = [
+                {**answer, **({} if axis in AXES else {name: point[name]})}
+                for (point, _), answer in zip(each, answers, strict=True)
+                if others.items() <= point.items()
+            ]
+            whose.append(own)
+            curves.append(at)
+    common, names = told_apart(whose)
+    label = "" if axis in AXES else label_of(parameter_of(machines[0].bicycle, name))
+    save(draw_ends([*zip(names, curves, strict=True)], axis, label, common), Path(output))

@@ -16,6 +16,7 @@ COMMANDS = [
     ("eigen", "--V", "0:10:3"),
     ("eigen", "--shapes", "--at", "7"),
     ("eigen", "--over", "delta=0:5:3", "--at", "6"),
+    ("vrange", "--over", "delta=0:5:3"),
     ("sensitivity",),
     ("sensitivity", "--of", "growth"),
 ]

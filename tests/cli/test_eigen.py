@@ -17,6 +17,7 @@ from bikestab.errors import BikestabError
 from bikestab.plot.modes import STYLES, draw_modes
 
 BENCHMARK = ("--bicycle", "meijaard2007")
+MISSING = "No such file or directory", "its folder is not there: 'mkdir -p missing' makes it"
 
 
 RECUMBENT = """\
@@ -225,19 +226,19 @@ def test_refused(args, says):
 
 
 @pytest.mark.parametrize(
-    ("option", "name", "says"),
+    ("option", "name", "why", "hint"),
     [
-        ("-o", "missing/modes.png", "missing/modes.png: cannot be written (No such file or directory)"),
-        ("--csv", "missing/modes.csv", "missing/modes.csv: cannot be written (No such file or directory)"),
-        ("--csv", "folder", "folder: cannot be written (Is a directory)"),
+        ("-o", "missing/modes.png", *MISSING),
+        ("--csv", "missing/modes.csv", *MISSING),
+        ("--csv", "folder", "Is a directory", "it is a folder: name a file in it, as folder/NAME"),
     ],
 )
-def test_nothing_is_left_of_what_cannot_be_written(tmp_path, monkeypatch, option, name, says):
+def test_nothing_is_left_of_what_cannot_be_written(tmp_path, monkeypatch, option, name, why, hint):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "folder").mkdir()
     with pytest.raises(BikestabError) as caught:
         run(*BENCHMARK, option, name)
-    assert str(caught.value).startswith(f"{says}\n")
+    assert str(caught.value) == f"{name}: cannot be written ({why})\n{hint}"
     assert [p.name for p in tmp_path.iterdir()] == ["folder"]
 
 
