@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
+import shlex
 import stat
 import sys
 import time
@@ -119,7 +120,7 @@ def _advice(path: str | Path, number: int | None) -> str:
     """What to do about a place at which nothing can be written."""
     folder = Path(path).parent
     if number == errno.ENOENT and not folder.exists():
-        return f"its folder is not there: 'mkdir -p {folder}' makes it"
+        return f"its folder is not there; make it: mkdir -p {shlex.quote(str(folder))}"
     advice = {
         errno.EISDIR: f"it is a folder: name a file in it, as {Path(path, 'NAME')}",
         errno.ENOTDIR: f"{folder} is a file or in one, and no folder",

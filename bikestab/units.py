@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Mapping, Sequence
 from numbers import Real
 from typing import Any, TypeAlias
 
 from bikestab.errors import InputError, nearest
-from bikestab.limits import LEAST, MOST, MOST_SPEED, MOST_TRAIL
+from bikestab.limits import MOST, MOST_SPEED, MOST_TRAIL
 
 Size: TypeAlias = "tuple[int, int] | float"  # a quotient of whole numbers, or a double
 Units: TypeAlias = Mapping[str, Size]  # of one dimension: how many SI units each is
@@ -42,15 +43,17 @@ _DIMENSIONS: dict[str, Units] = {
     "a plain number": PURE,
 }  # fmt: skip
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
+LARGEST = f"no number is larger than {sys.float_info.max:.2g}"  # which is true wherever one is typed
 _COMMA = re.compile(r"[-+]?\d+,\d+\s*[^\d\s,]*", re.ASCII)
 _MOST_SHOWN = 6
 _LONGEST = 400  # of a number that is taken exactly
 
 
-def quantity(value: object, units: Units, *, key: tuple[str | int, ...] = ()) -> float:
+def quantity(value: object, units: Units, *, key: tuple[str | int, ...] = (), limits: str = "") -> float:
     """A finite number in SI units from a number or from text with one of ``units``.
 
-    Raises InputError for anything else, naming the units that are understood.
+    Raises InputError for anything else, naming the units that are understood. ``limits`` says how large it
+    may be where that is not as of parameters.
     """
     typed = value
     if isinstance(value, str):
@@ -63,9 +66,9 @@ def quantity(value: object, units: Units, *, key: tuple[str | int, ...] = ()) ->
         number = math.inf
     if isinstance(typed, (str, int)):  # which stand for numbers that no double holds
         if math.isinf(number):
-            raise InputError(f"{shown(typed)} is out of range", key=key, hint=_limits(units))
+            raise InputError(f"{shown(typed)} is out of range", key=key, hint=limits or _limits(units))
         if number == 0 and isinstance(typed, str) and _telling(typed):
-            hint = f"allowed: 0, or from {LEAST:g} on"
+            hint = "write 0 if that is meant"
             raise InputError(f"{shown(typed)} is too small: it would be 0", key=key, hint=hint)
     if not math.isfinite(number):
         raise InputError(f"{shown(value)} is not finite", key=key, hint=_allowed(units))
@@ -85,9 +88,11 @@ def _telling(text: str) -> bool:
 
 
 def _limits(units: Units) -> str:
-    """How large a number of a dimension may be, wherever one is typed."""
+    """How large a parameter or a speed may be, by its dimension."""
     if units == ANGLE:
-        return "allowed: between -90deg and 90deg, both excluded"
+        return "allowed: between -90deg and 90deg, of a head angle between 0deg and 180deg"
+    if units in (RATE, TIME):
+        return LARGEST
     if units == SPEED:
         return f"allowed: 0 ... {MOST_SPEED:g} m/s"
     if not units:

@@ -51,7 +51,9 @@ def test_after_an_error_the_old_file_is_there(tmp_path, error):
 
 
 ADVICE = {
-    "none/a.csv": "'mkdir -p none' makes it", "file/a.csv": "file is a file or in one, and no folder",
+    "none/a.csv": "make it: mkdir -p none",
+    "it's/no where/a.csv": """mkdir -p 'it'"'"'s/no where'""",
+    "file/a.csv": "file is a file or in one, and no folder",
     "folder": "it is a folder: name a file in it, as folder/NAME", "a" * 256: "choose another name",
     ".": "name a file in it", "/": "name a file in it", "/proc/a.csv": "nothing can be made there",
 }  # fmt: skip

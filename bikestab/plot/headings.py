@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
-import textwrap
-from itertools import accumulate, takewhile
+from collections.abc import Sequence
+from itertools import takewhile
 from typing import Any
-from unicodedata import east_asian_width
 
 from matplotlib import font_manager
 from matplotlib.axes import Axes
+from matplotlib.text import Annotation
 
 from bikestab.plot.letters import FONT
+from bikestab.widths import columns, fitting
 
 _ON_AN_INCH = 11.5  # of size 10 on an inch, on the mean
+_LEFT = 0.7  # inches of numbers and a label to the left of axes
 _ROWS = 2
 _NAME = 40
 ROW = 26  # columns of a name beside axes
@@ -25,7 +27,7 @@ def short(name: str) -> str:
     name = " ".join(name.split())
     if columns(name) <= _NAME:
         return name
-    return f"{_first(name, _NAME // 2 - 1)}…{_first(name[::-1], _NAME // 2 - 1)[::-1]}"
+    return f"{fitting(name, _NAME // 2 - 1)}…{fitting(name[::-1], _NAME // 2 - 1)[::-1]}"
 
 
 def in_rows(name: str) -> str:
@@ -33,24 +35,10 @@ def in_rows(name: str) -> str:
     name = short(name)
     if columns(name) <= ROW:
         return name
-    first = _first(name, ROW)
+    first = fitting(name, ROW)
     cut = max(first.rfind(gap) for gap in (" ", "_", "-", "…", "/")) + 1
     first = first[:cut] if columns(name[cut:]) <= ROW else first
     return f"{first.rstrip()}\n{name[len(first) :].lstrip()}"
-
-
-def columns(text: str) -> int:
-    """How wide a text is in letters; those of East Asia are two."""
-    return sum(_wide(letter) for letter in text)
-
-
-def _wide(letter: str) -> int:
-    return 1 + (not letter.isascii() and east_asian_width(letter) in "WF")
-
-
-def _first(text: str, most: int) -> str:
-    """As much of a text as fits so many columns."""
-    return text[: sum(at <= most for at in accumulate(map(_wide, text)))]
 
 
 def set_title(ax: Axes, *lines: str, panels: int = 1, **options: Any) -> None:
@@ -59,29 +47,64 @@ def set_title(ax: Axes, *lines: str, panels: int = 1, **options: Any) -> None:
     Words that fit a row are whole, quantities are not parted from value and unit, a minus is no hyphen.
     """
     figure: Any = ax.figure
-    rows = [row for line in lines for row in _rows(line, int(_ON_AN_INCH * figure.get_figwidth() / panels))]
+    inches = figure.get_figwidth() / panels - max(0.0, _named_beside(ax) - _LEFT)
+    rows = [row for line in lines for row in rows_of(line, inches)]
     ax.set_title("\n".join(rows), parse_math=False, **{"fontsize": 10, **options})
 
 
-def _rows(line: str, width: int) -> list[str]:
+def _named_beside(ax: Axes) -> float:
+    """How far names reach to the right of axes [inches]: a title is over the middle of these."""
+    widths = [
+        text_width(line, float(text.get_fontsize()))
+        for text in ax.texts
+        if isinstance(text, Annotation) and text.anncoords == "axes fraction" and text.xyann[0] > 1
+        for line in text.get_text().split("\n")
+    ]
+    return max(widths, default=0.0)
+
+
+def rows_of(line: str, inches: float) -> list[str]:
+    """A line of a title in one or two rows of so many inches, as ``set_title`` has them."""
+    width = int(_ON_AN_INCH * inches)
     line = re.sub(r"(?<![\w.)])-(?=\d)", "−", " ".join(line.split()))
     line = re.sub(
         r" = |(?<=\d) (?=[a-z])|(?<=[a-z]) (?=[a-z]+²)", lambda gap: gap[0].replace(" ", _KEPT), line
     )
     line = re.sub(r"\([^()]{1,30}\)", lambda words: words[0].replace(" ", _KEPT), line)
-    words = line.split(" ")
-    line = " ".join(word if len(word) <= width else word.replace(_KEPT, " ") for word in words)
-    rows = _wrapped(line, width, max_lines=_ROWS, placeholder=" …")
-    if len(_wrapped(line, width)) == len(rows):  # nothing is cut: rows about as long as each other
-        least = max([1, *(len(word) for word in line.split(" ") if len(word) <= width)])
-        narrower = (_wrapped(line, less) for less in range(width, least - 1, -1))
+    words = [
+        part for word in line.split(" ") for part in ([word] if columns(word) <= width else word.split(_KEPT))
+    ]
+    rows = _wrapped(words, width)
+    if len(rows) <= _ROWS:  # nothing is cut: rows about as long as each other
+        least = max([1, *(columns(word) for word in words if columns(word) <= width)])
+        narrower = (_wrapped(words, less) for less in range(width, least - 1, -1))
         *_, rows = takewhile(lambda wrapped: len(wrapped) == len(rows), narrower)
-    return [row.replace(_KEPT, " ") for row in rows] or [""]
+    else:
+        rows = [*rows[: _ROWS - 1], _cut(rows[_ROWS - 1], width)]
+    return [row.replace(_KEPT, " ") for row in rows]
 
 
-def _wrapped(line: str, width: int, **options: Any) -> list[str]:
+def _wrapped(words: Sequence[str], width: int) -> list[str]:
     """Rows of whole words, unless one is wider."""
-    return textwrap.wrap(line, width, break_on_hyphens=False, **options)
+    rows = [""]
+    for word in words:
+        rest = f"{rows[-1]} {word}" if rows[-1] else word
+        if columns(word) <= width < columns(rest):
+            rows.append(word)
+            continue
+        while columns(rest) > width:
+            rows[-1] = fitting(rest, width) or rest[0]
+            rest = rest[len(rows[-1]) :]
+            rows.append("")
+        rows[-1] = rest
+    return [row.strip() for row in rows if row.strip()] or [""]
+
+
+def _cut(row: str, width: int) -> str:
+    """A row that others follow, with … in place of its last words where there is no room for it."""
+    while columns(row) > width - 2:
+        row = row.rpartition(" ")[0] or fitting(row, width - 2)
+    return f"{row} …"
 
 
 def text_width(text: str, size: float) -> float:

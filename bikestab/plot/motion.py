@@ -70,7 +70,7 @@ def draw_motions(machines: Sequence[tuple[str, Motion]], push: Mapping[str, floa
         ax.set_xlabel("time [s]")
         ax.set_ylabel(f"{what} to the right [rad]")
     road.set_xlabel("along the road [m]")
-    road.set_ylabel("rear wheel to the right [m]")
+    road.set_ylabel("to the right [m]")
     what = f"at {machines[0][1].V:g} m/s " if len(speeds) == 1 else ""
     doubt = [f"beyond {LARGE:g} rad the linear model does not hold"]
     doubt += (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import textwrap
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bikestab.motion import Complex, Shapes
-from bikestab.plot.headings import set_title, short
+from bikestab.plot.headings import rows_of, set_title, short
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import lines_for
 
@@ -19,7 +18,6 @@ _ARROWS = (("roll", "#0072b2", 4.0), ("steer", "#d55e00", 1.8))  # the first is 
 _HEAD = 14.0  # points
 _RADIUS = 58.0  # points, of a compass
 _WHITE = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}
-_ON_AN_INCH = 12.5  # letters of a title
 _MEANING = (
     "length: share of the larger of the two (rings: 0.5 and 1)",
     "angle: phase; further counterclockwise is earlier",
@@ -42,8 +40,7 @@ def draw_shapes(machines: Sequence[tuple[str, Shapes]], name: str = "") -> Figur
     title = (
         f"{short(whose)}{at}: roll and steer in each mode" if whose else f"Roll and steer in each mode{at}"
     )
-    width = int(_ON_AN_INCH * figure.get_figwidth())
-    lines = [part for line in (title, *_MEANING) for part in textwrap.wrap(line, width)]
+    lines = [row for line in (title, *_MEANING) for row in rows_of(line, figure.get_figwidth())]
     figure.set_figheight(0.3 + 0.17 * len(lines) + 3.0 * rows)
     figure.suptitle("\n".join(lines), fontsize=10)
     for row, ((own, found), modes) in enumerate(zip(machines, shown, strict=True)):

@@ -11,8 +11,9 @@ from matplotlib.axes import Axes
 from bikestab.errors import InputError
 from bikestab.model import Floats
 from bikestab.plot.axes import HALO
-from bikestab.plot.headings import ROW, columns, in_rows
+from bikestab.plot.headings import ROW, in_rows
 from bikestab.plot.placing import Room, beside
+from bikestab.widths import columns
 
 # Tol 2021, bright, without its grey; the dashes change with the colours, for greyscale, and differ from each
 # other where curves lie on each other: in the gaps of one the one below is seen

@@ -12,7 +12,7 @@ from bikestab_cli.options import over_option, told_as_options
 from bikestab_cli.quantities import SPEED_VALUE, Quantity
 
 from bikestab.errors import InputError
-from bikestab.units import ANGLE, RATE, TIME, quantity
+from bikestab.units import ANGLE, LARGEST, RATE, TIME, quantity
 
 
 class View(NamedTuple):
@@ -42,7 +42,7 @@ def _pushed(_: click.Context, option: click.Parameter, texts: tuple[str, ...]) -
         if name in values:
             raise click.BadParameter(f"{name} is given twice", param=option)
         try:
-            values[name] = quantity(number, units[name])
+            values[name] = quantity(number, units[name], limits=LARGEST)
         except InputError as error:
             raise click.BadParameter(f"{part!r}: {error.problem}; {error.hint}", param=option) from None
     return values

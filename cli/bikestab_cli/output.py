@@ -12,6 +12,7 @@ import click
 from bikestab_cli.streams import visible
 
 from bikestab.files import to_stdout
+from bikestab.widths import columns
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -79,15 +80,6 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], fold: int | None =
 def _as_shown(text: str) -> str:
     """The text as stdout will show it: its spelling for a terminal without these letters is longer."""
     return getattr(sys.stdout, "spelt", str)(visible(text))
-
-
-def columns(text: str) -> int:
-    """How many columns of a terminal a line takes: letters of East Asia two, accents apart none."""
-    if text.isascii():
-        return len(text)
-    from unicodedata import combining, east_asian_width
-
-    return sum(0 if combining(letter) else 1 + (east_asian_width(letter) in "WF") for letter in text)
 
 
 def _wrapped(line: str, width: int, behind: str = " /", indent: str = "") -> list[str]:

@@ -169,6 +169,20 @@ def test_a_dash_to_write_to_is_stdout(tmp_path, words, start, end):
     assert not (tmp_path / "-").exists()
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        f"eigen {M} --V 4:5:2 --csv -", f"certify {M} --lam 0.3 --sigma 0.08 --V 4.6:4.7 -o -",
+        f"sensitivity {M} --csv /dev/stdout", "check c.yaml --junit=-", f"design {M} --csv -",
+    ],
+)  # fmt: skip
+def test_json_and_a_file_do_not_share_stdout(tmp_path, words):
+    command = [sys.executable, "-m", "bikestab", *words.split(), "--json"]
+    ran = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    assert (ran.returncode, ran.stdout) == (2, "")
+    assert re.search(r"--json and -\S+ both go to stdout; give one of them", ran.stderr)
+
+
 @pytest.mark.parametrize("words", ["vrange --bicycle -", "check -", "eigen --bicycle - --V 5", "convert -"])
 def test_a_dash_to_read_from_is_stdin(tmp_path, words):
     """A config from there has its bicycle's file in the current folder."""

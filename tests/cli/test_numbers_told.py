@@ -54,7 +54,7 @@ def test_what_is_proposed_is_taken(bikestab, name):
 
 
 TYPED = {
-    "lam": "between -90deg and 90deg, both excluded", "sigma": "up to 1e+09, of sigma up to 100",
+    "lam": "between -90deg and 90deg, of a head angle", "sigma": "up to 1e+09, of sigma up to 100",
     "trail": "up to 1e+09 m", "delta": "up to 1e+09 kg m²/s",
 }  # fmt: skip
 
@@ -84,6 +84,30 @@ def test_wherever_it_is_typed(bikestab, args):
     assert re.search(
         r"'1e-400' is too small: it would be 0", said(bikestab, *args.replace("1e400", "1e-400").split())
     )
+
+
+BEYOND = [  # what is told of a number that no double holds, and one of the same option that is taken
+    ("vrange --bicycle meijaard2007 --head-angle {}", "of a head angle between 0deg and 180deg", "100deg"),
+    ("eigen --bicycle meijaard2007 --push roll={}", "no number is larger than 1.8e+308", "100deg"),
+    ("eigen --bicycle meijaard2007 --push steer_rate={}", "no number is larger than 1.8e+308", "1e10"),
+    ("eigen --bicycle meijaard2007 --push steer=1 --until {}", "no number is larger than 1.8e+308", "1e10"),
+]
+SMALL = ["vrange --lam 0.2 --sigma {}", "vrange --bicycle meijaard2007 --set mB={}"]
+
+
+@pytest.mark.parametrize(("args", "words", "taken"), BEYOND)
+def test_no_limit_is_told_that_does_not_hold(bikestab, args, words, taken):
+    told = said(bikestab, *args.format("1e400").split())
+    assert "'1e400' is out of range; " in told
+    assert words in told
+    assert bikestab(*args.format(taken).split())[0] == 0
+
+
+@pytest.mark.parametrize("args", SMALL)
+def test_no_least_number_is_told_where_there_is_none(bikestab, args):
+    told = said(bikestab, *args.format("1e-400").split())
+    assert "'1e-400' is too small: it would be 0; write 0 if that is meant" in told
+    assert bikestab(*args.format("1e-60").split())[0] == 0
 
 
 @pytest.mark.parametrize("text", ["1e400", "-1e400", "1e999999999", "123e400 ", "0.001e400"])

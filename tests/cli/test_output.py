@@ -8,11 +8,13 @@ import sys
 
 import click
 import pytest
-from bikestab_cli.output import certain, columns, prose, table
+from bikestab_cli.output import certain, prose, table
 from bikestab_cli.streams import Visible
 from hypothesis import given
 from hypothesis import strategies as st
 from wcwidth import wcswidth
+
+from bikestab.widths import columns, fitting
 
 
 @pytest.mark.parametrize(
@@ -65,6 +67,10 @@ def test_no_name_makes_a_line_longer_than_80_columns(name):
 @given(st.text(st.sampled_from("ab é自e\u0301/"), max_size=200))
 def test_columns_are_those_of_a_terminal(text):
     assert columns(text) == wcswidth(text)
+    for most in range(12):
+        start = fitting(text, most)
+        assert wcswidth(start) <= most
+        assert start == text or wcswidth(text[: len(start) + 1]) > most
     lines = prose(text).split("\n")
     assert all(columns(line) <= 80 for line in lines)
     assert "".join(lines).replace(" ", "") == text.replace(" ", "")

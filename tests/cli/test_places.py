@@ -23,7 +23,7 @@ COMMANDS = {
     "compare meijaard2007 dikarev1981 -o": ".png",
 }  # fmt: skip
 PLACES = {  # and the exit code, and what is advised
-    "none/x{}": (2, "'mkdir -p none' makes it"),
+    "none/x{}": (2, "make it: mkdir -p none"),
     "file/x{}": (2, "file is a file or in one, and no folder"),
     "folder{}": (2, "name a file in it, as folder"),
     "/proc/x{}": (2, "nothing can be made there: choose another place"),

@@ -10,6 +10,9 @@ from tests.words import faults, offsets, smallest
 
 PAPER = "--lam 0.2 --sigma 0.08"
 NAMED = "--bicycle named.yaml --bicycle lettered.yaml --bicycle sharp1971"
+VIEWS = ["--push roll_rate=0.5", "--shapes", "--over delta=0:5:5", "--over delta=0:5:5 --over mB=60:110:3"]
+FREE = "design --free trail=2cm:15cm --free mB=60:110"
+ALONE = ["eigen --locus", "vrange --trail 0:15cm:7", "design", FREE]
 ALL = "--bicycle meijaard2007 --bicycle sharp1971 --bicycle kooijman2011"
 COMMANDS = [
     f"eigen {PAPER}",
@@ -71,6 +74,13 @@ COMMANDS = [
     f"eigen {NAMED} --locus",
     f"design {NAMED}",
     f"sensitivity {NAMED}",
+    f"sensitivity {NAMED} --of growth",
+    f"eigen {NAMED} --at 5 --push roll_rate=0.5",
+    f"eigen {NAMED} --at 5 --shapes",
+    f"eigen {NAMED} --at 5 --over delta=0:5:5",
+    *(f"eigen --bicycle {name} --at 5 {view}" for name in ("named.yaml", "lettered.yaml") for view in VIEWS),
+    *(f"{command} --bicycle {name}" for name in ("named.yaml", "lettered.yaml") for command in ALONE),
+    *(f"bicycles {name}" for name in ("named.yaml", "lettered.yaml")),
     "compare meijaard2007 named.yaml",
     "compare meijaard2007 sharp1971 kooijman2011",
     "compare meijaard2007 dikarev1981 sharp1971 heavier.yaml longer.yaml",

@@ -4,9 +4,15 @@ import warnings
 
 import pytest
 from matplotlib.figure import Figure
+from wcwidth import wcswidth
 
 from bikestab.plot.files import save
-from bikestab.plot.headings import _rows, set_title, short
+from bikestab.plot.headings import _ON_AN_INCH, rows_of, set_title, short
+
+
+def rows_in(line, columns):
+    """What fits so many columns; those of an inch are the module's own."""
+    return rows_of(line, (columns + 0.5) / _ON_AN_INCH)
 
 
 def drawn(tmp_path, *lines):
@@ -48,8 +54,20 @@ def test_any_script(tmp_path):
 def test_words_that_fit_a_row_stay_whole():
     name = "meijaard2007_with_child_and_two_bags_90"
     assert short(name) == name
-    rows = _rows(f"{name}: eigenvalues at 5 m/s", 60)
+    rows = rows_in(f"{name}: eigenvalues at 5 m/s", 60)
     assert rows == [f"{name}:", "eigenvalues at 5 m/s"]
-    assert _rows("a (head angle 72.0000000 degrees) b", 30) == ["a (head angle", "72.0000000 degrees) b"]
-    assert _rows("one two-three four", 12) == ["one", "two-three …"]
-    assert _rows("a" * 100, 60) == ["a" * 50] * 2
+    assert rows_in("a (head angle 72.0000000 degrees) b", 30) == ["a (head angle", "72.0000000 degrees) b"]
+    assert rows_in("one two-three four", 12) == ["one", "two-three …"]
+    assert rows_in("a" * 100, 60) == ["a" * 50] * 2
+
+
+@pytest.mark.parametrize("columns", range(8, 60, 7))
+@pytest.mark.parametrize(
+    "name", ["自転車の安定性を調べるための標準的な二輪車モデル", "自転車 " * 9, "ae\u0301" * 30]
+)
+def test_rows_are_as_wide_as_letters_are(name, columns):
+    rows = rows_in(f"{name}: eigenvalues at 5 m/s", columns)
+    assert len(rows) <= 2
+    assert max(map(wcswidth, rows)) <= columns
+    told = "".join(rows).removesuffix(" …").replace(" ", "")
+    assert f"{name}: eigenvalues at 5 m/s".replace(" ", "").startswith(told)
