@@ -13,6 +13,16 @@ if TYPE_CHECKING:
 
 _FILES = {"bash": "~/.bashrc", "zsh": "~/.zshrc", "fish": "~/.config/fish/completions/bikestab.fish"}
 
+_MENDED = {  # what click's scripts leave undone: zsh may not have loaded compdef; descriptions have commas
+    "zsh": [
+        (
+            "    compdef ",
+            "    (( $+functions[compdef] )) || { autoload -Uz compinit && compinit -i }\n    compdef ",
+        )
+    ],
+    "fish": [('string split "," $completion', 'string split --max 1 "," $completion')],
+}
+
 
 def completed(incomplete: str, *, bicycles: bool) -> list[CompletionItem]:
     """Files; where a bicycle's name fits, both as words: bash shows none of them beside "file"."""
@@ -50,7 +60,8 @@ def command(shell: str) -> None:
     """Print what lets a shell complete commands, options, names of bicycles and files.
 
     For bash 4.4 or later: put  eval "$(bikestab completion bash)"  into ~/.bashrc; the same for zsh
-    into ~/.zshrc; for fish write it into ~/.config/fish/completions/bikestab.fish.
+    into ~/.zshrc, below the line with compinit if there is one; for fish write it into
+    ~/.config/fish/completions/bikestab.fish.
 
     \b
     Examples:
@@ -64,4 +75,7 @@ def command(shell: str) -> None:
     kind = get_completion_class(shell)
     assert kind  # click knows all three
     maker = kind(cli, {}, "bikestab", COMPLETE)
-    click.echo(maker.source_template % maker.source_vars(), nl=False)  # source() would start a bash
+    script = maker.source_template % maker.source_vars()  # source() would start a bash
+    for old, new in _MENDED.get(shell, ()):
+        script = script.replace(old, new)
+    click.echo(script, nl=False)

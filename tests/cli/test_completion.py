@@ -64,6 +64,44 @@ def test_scripts(bikestab, shell):
         subprocess.run([program, "-n"], input=out, text=True, check=True)
 
 
+@pytest.fixture
+def in_shell(bikestab, tmp_path):
+    """Run lines below the script in a shell with nothing of the user's, where bikestab is a command."""
+
+    def run(shell, lines, *options):
+        program = shutil.which(shell)
+        if not program:
+            pytest.skip(f"no {shell} here")
+        there = tmp_path / "bin" / "bikestab"
+        there.parent.mkdir()
+        there.write_text(f"#!{sys.executable}\nfrom bikestab_cli.main import main\nmain()\n", "utf-8")
+        there.chmod(0o755)
+        own = {"HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path), "XDG_DATA_HOME": str(tmp_path)}
+        env = os.environ | own | {"PATH": f"{there.parent}{os.pathsep}{os.environ['PATH']}"}
+        script = bikestab("completion", shell)[1] + lines
+        done = subprocess.run(
+            [program, *options], input=script, text=True, capture_output=True, env=env, check=True
+        )
+        assert done.stderr == ""
+        return done.stdout.splitlines()
+
+    return run
+
+
+def test_zsh_without_compinit(in_shell):
+    """Nothing but what is printed: neither the user's files nor the system's are read."""
+    assert in_shell("zsh", "print $_comps[bikestab]\n", "-f") == ["_bikestab_completion"]
+
+
+def test_fish_shows_whole_descriptions(in_shell):
+    """Beyond their first comma, of which there is one in each of these."""
+    lines = "complete --do-complete 'bikestab compa'\ncomplete --do-complete 'bikestab sensi'\n"
+    assert in_shell("fish", lines, "--no-config") == [
+        "compare\tCompare bicycles, configs or volumes: the...",
+        "sensitivity\tPrint which parameter moves V1 and V2, and...",
+    ]
+
+
 def test_a_shell_that_is_not_known(bikestab):
     code, out, err = bikestab("completion", "tcsh")
     assert (code, out) == (2, "")

@@ -107,3 +107,14 @@ def test_what_consoles_show_is_printed(run, page):
     assert shown
     for line, expected in shown:
         assert run([line]) == expected
+
+
+def test_the_tutorial_decides_in_as_many_commands_as_it_says():
+    """One in each of its numbered sections, the decision in the last of them."""
+    *numbered, after = (ROOT / "docs" / "tutorial.md").read_text("utf-8").split("\n## ")[1:]
+    assert [section[:3] for section in numbered] == [f"{i}. " for i in range(1, 6)]
+    assert [section.count("\nbikestab ") for section in numbered] == [1] * 5
+    assert "Decision: " in numbered[-1]
+    assert not after[0].isdigit()
+    for page in ("tutorial.md", "index.md"):
+        assert "five commands" in (ROOT / "docs" / page).read_text("utf-8").lower()
