@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import zip_longest
 from typing import Any, TypedDict
 
@@ -42,17 +43,19 @@ def compare(A: Side, B: Side, box: Box, within: float | str | None = None) -> tu
     """All that differs as a record that JSON can hold, and the region that differs.
 
     ``within`` is a speed [m/s], or per cent as text such as ``1%``: of each end of the stable speeds, and of
-    the stable region, by the mean distance of its speeds, or by the share of the union. ``holds`` says
-    whether all are; without ``within`` it is None. Raises InputError as ``region``.
+    the stable region, by the mean distance of its speeds, or by the share of the union; per cent are of the
+    growth rates too. What is zero or infinite may not change at all. ``holds`` says whether all are; without
+    ``within`` it is None. Raises InputError as ``region``.
     """
     found = region(A, B, box)
     ends = _ends(A, B, within)
     far = None if within is None else _share_holds(found, within)
-    asked = [change["within"] for change in ends] + [far]
+    rates = _growth_rates(A, B, within)
+    asked = [change["within"] for change in (*ends, *rates)] + [far]
     names = (*box.names, "V")
     record = {
-        "A": _side(A), "B": _side(B), "parameters": _parameters(A, B), "ends": ends,
-        "growth_rate": _growth_rates(A, B),
+        "A": _side(A), "B": _side(B), "parameters": parameters([A, B])[0], "ends": ends,
+        "growth_rate": rates,
         "region": {
             "box": dict(zip(names, map(list, box.ends), strict=True)),
             "designs": [len(box.x), len(box.y)], "unit": _unit(A, box.names),
@@ -84,21 +87,34 @@ def _side(side: Side) -> dict[str, Any]:
     return {**head, "design": design_record(*side.design, side.bicycle), "intervals": interval_records(found)}
 
 
-def _parameters(A: Side, B: Side) -> list[Change]:
-    """Those that differ, in the notation of both, or else the paper's."""
-    one, other = A.bicycle, B.bicycle
-    if one.notation.keys() == other.notation.keys():
-        numbers = [{"g": x.g, "delta": x.delta, **x.given} for x in (one, other)]
-        meanings = one.notation
-    else:
-        numbers = [{k: v for k, v in x.numbers().items() if v is not None} for x in (one, other)]
-        meanings = PAPER
-    names = dict.fromkeys([*numbers[0], *numbers[1]])
+def parameters(sides: Sequence[Side]) -> list[list[Change]]:
+    """Of the first and each other those that differ, in the notation of all, or else the paper's.
+
+    Tilt and trail are those of the designs that are compared.
+    """
+    one = len({frozenset(side.bicycle.notation) for side in sides}) == 1
+    meanings = sides[0].bicycle.notation if one else PAPER
+    A, *others = (_numbers(side, own=one) for side in sides)
     return [
-        change(name, meanings.get(name, "").rpartition("[")[2].rstrip("]"), a, b)
-        for name in names
-        if (a := numbers[0].get(name)) != (b := numbers[1].get(name))
+        [
+            change(name, meanings.get(name, "").rpartition("[")[2].rstrip("]"), A.get(name), B.get(name))
+            for name in dict.fromkeys([*A, *B])
+            if A.get(name) != B.get(name)
+        ]
+        for B in others
     ]
+
+
+def _numbers(side: Side, *, own: bool) -> dict[str, float]:
+    """A machine's parameters, at its design, in its ``own`` notation or the paper's."""
+    bike = side.bicycle
+    numbers = {"g": bike.g, "delta": bike.delta, **bike.given} if own else bike.numbers()
+    found = {name: value for name, value in numbers.items() if value is not None}
+    if side.design is None or side.design == (bike.lam, bike.sigma):
+        return found
+    lam, sigma = side.design
+    trail = {"c": float(f"{sigma * bike.c:.15g}")} if own and bike.bodies else {"sigma": sigma}
+    return {**found, "lam": lam, **trail}
 
 
 def _ends(A: Side, B: Side, within: float | str | None) -> list[Change]:
@@ -126,8 +142,8 @@ def _near(a: float | None, b: float | None, within: float | str) -> bool:
     return abs(b - a) <= allowed
 
 
-def _growth_rates(A: Side, B: Side) -> list[Change]:
-    """Those in the middle of A's stable intervals, or of B's where A has none."""
+def _growth_rates(A: Side, B: Side, within: float | str | None) -> list[Change]:
+    """Those in the middle of A's stable intervals, or of B's where A has none; judged in per cent only."""
     if A.design is None or B.design is None:
         return []
     speeds = [
@@ -138,10 +154,14 @@ def _growth_rates(A: Side, B: Side) -> list[Change]:
         growth_rate_of(exact_table(side.bicycle, *design, model=side.model), np.array(speeds))
         for side, design in ((A, A.design), (B, B.design))
     ]
-    return [
-        change(f"growth rate at {V:.4g} m/s", "1/s", *(float(x) if math.isfinite(x) else None for x in both))
-        for V, *both in zip(speeds, *rates, strict=True)
-    ]
+    rows = []
+    for V, *both in zip(speeds, *rates, strict=True):
+        a, b = (float(x) if math.isfinite(x) else None for x in both)
+        row = change(f"growth rate at {V:.4g} m/s", "1/s", a, b)
+        if isinstance(within, str):
+            row["within"] = _near(a, b, within)
+        rows.append(row)
+    return rows
 
 
 def change(what: str, unit: str, a: float | None, b: float | None) -> Change:

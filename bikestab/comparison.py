@@ -51,7 +51,7 @@ def box_of(ends: tuple[Ends, Ends, Ends], names: tuple[str, str] = ("lam", "sigm
 
 
 class Region(NamedTuple):
-    """What one of two machines' stable regions has and the other has not, in a box.
+    """What one of two machines' stable regions has and the other has not, in a ``box``.
 
     ``apart`` (x, y) is for how many m/s exactly one of them is stable. The volumes of both regions, of
     their symmetric difference and of their union are in m/s times the units of x and y; ``mean`` [m/s] is by
@@ -59,6 +59,7 @@ class Region(NamedTuple):
     as one unit.
     """
 
+    box: Box
     apart: Floats
     volumes: tuple[float, float]
     difference: float
@@ -85,7 +86,7 @@ def region(A: Side, B: Side, box: Box) -> Region:
     some = float(cells[union > 0].sum())
     difference = float((apart * cells).sum())
     return Region(
-        apart, (float((one * cells).sum()), float((other * cells).sum())), difference,
+        box, apart, (float((one * cells).sum()), float((other * cells).sum())), difference,
         float((union * cells).sum()), difference / some if some else 0.0,
     )  # fmt: skip
 

@@ -112,3 +112,8 @@ def modes_record(modes: Modes) -> dict[str, Any]:
 
 def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
+
+
+def letter_of(number: int) -> str:
+    """A, B, ..., Z, AA, AB, ...: stands for the machine of this number, from 0, in tables and pictures."""
+    return (letter_of(number // 26 - 1) if number >= 26 else "") + chr(ord("A") + number % 26)

@@ -17,6 +17,7 @@ from bikestab.plot.growth import growth_axes
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.placing import Room, beside
 from bikestab.plot.settings import own_settings
+from bikestab.records import letter_of
 from bikestab.speeds import intervals_of
 
 Place = tuple[float, float]
@@ -27,70 +28,74 @@ _BEYOND = 1.5  # where growth rates end, of the highest end of stability
 
 
 @own_settings()
-def draw_compared(sides: Sequence[Side], box: Box, regions: Sequence[Region]) -> Figure:
+def draw_compared(sides: Sequence[Side], regions: Sequence[Region]) -> Figure:
     """Growth rates of those that have a design, and maps where the box has lengths in both of its parameters.
 
     Each map shows where the first differs from one of the others, whose ``regions`` these are; all are on one
     scale.
     """
-    named = [(f"{_letter(i)}: {short(side.name)}", side) for i, side in enumerate(sides)]
+    named = [(f"{letter_of(i)}: {short(side.name)}", side) for i, side in enumerate(sides)]
     growth = any(side.design for side in sides)
-    maps = len(regions) if min(len(box.x), len(box.y)) > 1 else 0
-    columns = min(maps, _COLUMNS) or 1
-    rows = -(-maps // columns)
+    drawn = [k for k, found in enumerate(regions) if min(found.apart.shape) > 1]
+    columns = min(len(drawn), _COLUMNS) or 1
+    rows = -(-len(drawn) // columns)
     heights = [*([_GROWTH] if growth else []), *[_MAP[columns - 1]] * rows]
     figure = Figure(figsize=(_WIDTHS[columns - 1], sum(heights) or 1.0), layout="constrained")
     grid = figure.add_gridspec(len(heights) or 1, columns, height_ratios=heights or None)
     if growth:
-        _growth(figure.add_subplot(grid[0, :]), named, box)
-    axes = [figure.add_subplot(grid[k // columns + growth, k % columns]) for k in range(maps)]
-    largest = max((float(found.apart.max()) for found in regions), default=0.0)
-    for k, ax in enumerate(axes):
-        ax.pcolormesh(
-            box.x, box.y, np.ma.masked_equal(regions[k].apart.T, 0), cmap="cividis", shading="nearest",
-            vmin=0, vmax=largest or 1, rasterized=True,
-        )  # fmt: skip
-        _label(ax, [sides[0], sides[k + 1]], box, alone=maps == 1)
+        _growth(figure.add_subplot(grid[0, :]), named, _speeds(sides, regions))
+    axes = [figure.add_subplot(grid[i // columns + growth, i % columns]) for i in range(len(drawn))]
+    largest = max((float(regions[k].apart.max()) for k in drawn), default=0.0)
+    for k, ax in zip(drawn, axes, strict=True):
+        _map(ax, regions[k], largest or 1.0)
+        _label(ax, [sides[0], sides[k + 1]], regions[k].box, alone=len(drawn) == 1)
         words = f"differ in {100 * regions[k].share:.3g} % of their union"
-        words = (
-            f"A and {_letter(k + 1)} {words}" if maps > 1 else f"Stable regions {words}; white: no difference"
-        )
+        who = f"A and {letter_of(k + 1)}" if len(regions) > 1 else "Stable regions"
+        words = f"{who} {words}" + ("" if len(drawn) > 1 else "; white: no difference")
         set_title(ax, *([] if growth else [named[0][0], named[k + 1][0]]), words, panels=columns)
     if axes and largest:
         place: dict[str, Any] = {"location": "bottom", "aspect": 30}  # beside there may be the trail
         bar = figure.colorbar(axes[0].collections[0], ax=axes, shrink=1 / columns, **place)
-        bar.set_label("speeds at which exactly one is stable [m/s]" + ("; white: none" if maps > 1 else ""))
+        none = "; white: none" if len(drawn) > 1 else ""
+        bar.set_label(f"speeds at which exactly one is stable [m/s]{none}")
     if engine := figure.get_layout_engine():
         engine.execute(figure)  # which says where the axes are
-    for k, ax in enumerate(axes):
-        pair = {"A": sides[0], _letter(k + 1): sides[k + 1]}
-        _mark_designs(ax, {name: at for name, side in pair.items() if (at := _place(box, side))})
+    for k, ax in zip(drawn, axes, strict=True):
+        pair = {"A": sides[0], letter_of(k + 1): sides[k + 1]}
+        places = {name: _place(regions[k].box, side) for name, side in pair.items()}
+        _mark_designs(ax, {name: at for name, at in places.items() if at})
     return figure
 
 
-def _growth(ax: Axes, named: Sequence[tuple[str, Side]], box: Box) -> None:
+def _map(ax: Axes, found: Region, largest: float) -> None:
+    ax.pcolormesh(
+        found.box.x, found.box.y, np.ma.masked_equal(found.apart.T, 0), cmap="cividis", shading="nearest",
+        vmin=0, vmax=largest, rasterized=True,
+    )  # fmt: skip
+
+
+def _growth(ax: Axes, named: Sequence[tuple[str, Side]], speeds: tuple[float, float]) -> None:
     """Growth rates of those that have a design, and who has none."""
     curves = [(name, side.bicycle, *side.design, side.model) for name, side in named if side.design]
-    growth_axes(ax, curves, box.ends[2][0], _highest([side for _, side in named], box))
+    growth_axes(ax, curves, *speeds)
     if without := [name for name, side in named if not side.design]:
         words = f"({', '.join(without)}: no design of {'its' if len(without) == 1 else 'their'} own)"
         set_title(ax, ax.get_title(), words)
 
 
-def _letter(number: int) -> str:
-    return chr(ord("A") + number)
-
-
-def _highest(sides: Sequence[Side], box: Box) -> float:
-    """The end of the speeds that growth rates are drawn at: beyond all ends of stability, in the box."""
-    low, high = box.ends[2]
+def _speeds(sides: Sequence[Side], regions: Sequence[Region]) -> tuple[float, float]:
+    """Those of growth rates: from the boxes' lowest to beyond all ends of stability, in the boxes."""
+    lows, highs = zip(*(found.box.ends[2] for found in regions), strict=True)
+    low, high = min(lows), max(highs)
     ends = [0.0]
     for side in sides:
         if side.design:
             found = intervals_of(exact_table(side.bicycle, *side.design, model=side.model))
             edges = np.concatenate([found.V1[: found.number], found.V2[: found.number]])
             ends += edges[(edges > low) & (edges < high)].tolist()
-    return min(high, float(np.ceil(low + _BEYOND * (max(ends) - low)))) if max(ends) > low else high
+    if max(ends) > low:
+        high = min(high, float(np.ceil(low + _BEYOND * (max(ends) - low))))
+    return low, high
 
 
 def _label(ax: Axes, both: Sequence[Side], box: Box, *, alone: bool) -> None:

@@ -82,7 +82,7 @@ def draw_rates(ax: Axes, machines: Sequence[Rates], start: float, stop: float) -
         for part, width in ((rate >= 0, 1.4), (rate <= 0, 3)):
             ax.plot(x, np.where(part, rate, np.nan), color=line.color, ls=line.ls, lw=width)
         ax.plot(ends, np.zeros(len(ends)), "o", ms=5, mfc="white", mec=line.color, mew=1.4, zorder=4)
-        curves.append(Curve(name, x, rate, line.color))
+        curves.append(Curve(name if len(shown) else f"{name}: infinite throughout", x, rate, line.color))
     ax.axhline(0, color="k", lw=0.8, zorder=1)
     ax.set_xlim(start, stop)
     ax.set_yscale("asinh", linear_width=_LINEAR)
@@ -90,7 +90,8 @@ def draw_rates(ax: Axes, machines: Sequence[Rates], start: float, stop: float) -
     plain_ticks(ax)
     ax.set_ylabel(f"growth rate [s⁻¹]  (scale logarithmic beyond ±{_LINEAR:g})")
     ticks_inside(ax)
-    label_curves(ax, curves)
+    nowhere, top = np.array([stop]), np.array([ax.get_ylim()[1]])
+    label_curves(ax, [c if np.isfinite(c.y).any() else Curve(c.name, nowhere, top, c.color) for c in curves])
 
 
 def _along(machine: Machine, start: float, stop: float) -> Rates:

@@ -59,8 +59,12 @@ def lines_for(number: int) -> list[Line]:
 def label_curves(ax: Axes, curves: Sequence[Curve]) -> None:
     """Write each curve's name beside its end; of curves that lie on each other the names stand together.
 
+    A curve without any finite point has no end, and so no name.
     The limits and scales of the axes are those that stay, and all lines are drawn.
     """
+    curves = [curve for curve in curves if np.isfinite(curve.y).any()]
+    if not curves:
+        return
     names, x, y, colors = [], [], [], []
     for group in _together(ax, curves):
         first = curves[group[0]]
@@ -102,7 +106,7 @@ def _together(ax: Axes, curves: Sequence[Curve]) -> list[list[int]]:
 
 
 def _end(curve: Curve) -> tuple[float, float]:
-    """The last point of a curve that has one."""
+    """The last finite point of a curve."""
     last = np.flatnonzero(np.isfinite(curve.y))[-1]
     return float(curve.x[last]), float(curve.y[last])
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.chosen import Given, design_options
-from bikestab_cli.compare_sides import Asked, box_of_all, check_used, opened
+from bikestab_cli.compare_sides import Asked, check_used, opened, paired
 from bikestab_cli.options import (
     BICYCLE,
     PICTURE,
@@ -44,7 +44,7 @@ class _Tolerance(click.ParamType):
 @click.argument("others", type=BICYCLE, metavar="B...", nargs=-1, required=True)
 @click.option(
     "--within", type=_Tolerance(), metavar="PERCENT|SPEED",
-    help="Exit with 1 if an end of the stable speeds or the stable region moved by more: 1%, or 0.05.",
+    help="Exit with 1 if an end, the growth rate or the stable region moved by more: 1%, or 0.05 (m/s).",
 )  # fmt: skip
 @design_options()
 @equation_options
@@ -68,15 +68,15 @@ def command(
     their parameters, the stable speeds of their designs, or of the one given, what happens at their ends, and
     the growth rate in the middle; and over the grid's two parameters, or else tilt and trail, and speeds the
     volume of the symmetric difference of their stable regions, as a share of their union. It is exact along
-    the speed and a sum over designs: those of the grids if they are the same, else 81 × 81 in what all have
-    of a box, for bicycles λ to 0.6, σ to 0.3, 30 m/s.
+    the speed and a sum over designs: those of the grids if they are the same, else 81 × 81 in what both have
+    of a box, for bicycles λ to 0.6, σ to 0.3, 30 m/s. Of several each is compared as it would be alone.
 
     --at chooses of a sweep, in each of them that has its axis. --model, --delta and --rider are for
     bicycles: configs and volumes say these themselves.
 
-    --within is per cent of each end of the first, and of the union; as a speed it is the distance of each
-    end, and the mean distance of the regions' speeds. Other ends, or another number of intervals, are always
-    beyond it. Exit code 1 if something is.
+    --within is per cent of each end and growth rate of the first, and of the union; as a speed it is the
+    distance of each end, and the mean distance of the regions' speeds, and growth rates are not judged. Other
+    ends, or another number of intervals, are always beyond it. Exit code 1 if something is.
 
     \b
     Examples:
@@ -88,26 +88,26 @@ def command(
     """
     from bikestab_cli.compare_words import told, told_all
 
-    from bikestab.changes import compare
+    from bikestab.changes import compare, parameters
 
     check_files(output)
     asked = Asked(given, model, delta, machine)
     found = [opened(name, asked) for name in (one, *others)]
     check_used(asked, found)
-    box, (A, *rest) = box_of_all(found)
-    pairs = [compare(A, B, box, within) for B in rest]
+    pairs = [compare(*paired(found[0], other), within) for other in found[1:]]
     records = [record for record, _ in pairs]
+    sides = [each.side for each in found]
     files = {}
     if output:
         from bikestab.plot.compared import draw_compared
         from bikestab.plot.files import save
 
-        save(draw_compared([A, *rest], box, [region for _, region in pairs]), Path(output))
+        save(draw_compared(sides, [region for _, region in pairs]), Path(output))
         files["picture"] = output
     if as_json:
         print_json({"results": records, **({"files": files} if files else {})})
     else:
-        click.echo(told(records[0]) if len(records) == 1 else told_all(records))
+        click.echo(told(records[0]) if len(records) == 1 else told_all(records, parameters(sides)))
         if output:
             tell_file(output)
     click.get_current_context().exit(1 if any(record["holds"] is False for record in records) else 0)

@@ -22,7 +22,7 @@ from bikestab_cli.shapes import (
 )
 
 _SIDE = record(
-    "one of the two; A is the first", name=words("as it was typed"), bicycle=words("its name"),
+    "what is compared", name=words("as it was typed"), bicycle=words("its name"),
     model=MODEL, delta=num("steering damping [kg m²/s]"), intervals=INTERVALS,
     design=either(record("a design", **DESIGN), NULL, text="what is compared; null: it has none of its own"),
 )  # fmt: skip
@@ -45,8 +45,8 @@ WITHIN = either(NUMBERS, TEXTS, text="m/s, or text such as 1%")
 COMPARE = answer(
     record(
         "the comparison of the first with one of the others, which is B",
-        A=_SIDE,
-        B=_SIDE,
+        A={**_SIDE, "description": "the first that was typed"},
+        B={**_SIDE, "description": "the other"},
         parameters=some(_CHANGE, "those that differ"),
         ends=some(_CHANGE, "of the stable speeds"),
         growth_rate=some(_CHANGE, "in their middle"),

@@ -116,44 +116,48 @@ def _config(name: str, asked: Asked) -> Found:
     return Found(_side(name, bicycle, config.model, asked.given), axes, [*swept])
 
 
-def box_of_all(found: Sequence[Found]) -> tuple[Box, list[Side]]:
-    """What all have of the designs and speeds; of other designs the speeds are computed anew."""
+def paired(A: Found, B: Found) -> tuple[Side, Side, Box]:
+    """Two sides, and what both have of designs and speeds; of other designs the speeds are computed anew."""
     import numpy as np
 
     from bikestab.comparison import Box, box_of
 
-    known = [each.axes for each in found if each.axes]
+    sides, known = (A.side, B.side), [axes for axes in (A.axes, B.axes) if axes]
     names = known[0].names if known else ("lam", "sigma")
-    for each in found:
-        if each.axes and each.axes.names != names:
-            one, other = (" and ".join(axes) for axes in (each.axes.names, names))
-            hint = "give a bicycle in place of one of them: it takes the other's axes"
-            raise InputError(f"is over {one}, and the other over {other}", place=each.side.name, hint=hint)
+    if known and known[-1].names != names:
+        one, other = (" and ".join(axes.names) for axes in known)
+        hint = "give a bicycle in place of one of them: it takes the other's axes"
+        problem = f"is over {other}, and {A.side.name} over {one}"
+        raise InputError(problem, place=B.side.name, hint=hint)
+    _check_meanings(*sides, names)
     ends: Any = BOX
     if known:
         both = [zip(*pairs, strict=True) for pairs in zip(*(axes.ends for axes in known), strict=True)]
         ends = tuple((max(low), min(high)) for low, high in both)
     for name, (low, high) in zip((*names, "V"), ends, strict=True):
         if low > high:
-            problem = f"{'the two' if len(found) == 2 else 'they'} have no {name} in common"
-            raise InputError(problem, hint="; ".join(_span(axes, name) for axes in known))
-    first = known[0] if known else None
-    same = first and all(
-        np.array_equal(axes.x, first.x) and np.array_equal(axes.y, first.y) for axes in known
-    )
-    sides = _in_one_notation([each.side for each in found])
-    if first and same:
-        return Box(first.x, first.y, ends, names), sides
-    return box_of(ends, names), [side._replace(stored=None) for side in sides]
+            problem = f"has no {name} in common with {A.side.name}"
+            raise InputError(problem, place=B.side.name, hint="; ".join(_span(axes, name) for axes in known))
+    if known and np.array_equal(known[0].x, known[-1].x) and np.array_equal(known[0].y, known[-1].y):
+        return *sides, Box(known[0].x, known[0].y, ends, names)
+    return *(side._replace(stored=None) for side in sides), box_of(ends, names)
 
 
-def _in_one_notation(sides: list[Side]) -> list[Side]:
-    """Of more than two the paper's where theirs differ, so that one table holds the parameters of all."""
-    if len(sides) == 2 or len({frozenset(side.bicycle.notation) for side in sides}) == 1:
-        return sides
-    from bikestab.design.sensitivity import two_parts
+def _check_meanings(A: Side, B: Side, names: tuple[str, str]) -> None:
+    """Refuse a parameter that is another quantity in the notation of the other machine, as c is."""
+    from bikestab.family import Family
 
-    return [side._replace(bicycle=two_parts(side.bicycle)) for side in sides]
+    families = []
+    for side in (A, B):
+        try:
+            families.append(Family(side.bicycle, side.model, *names))
+        except InputError as error:
+            raise InputError(error.problem, place=side.name, hint=error.hint) from None
+    meanings = [[parameter.meaning for parameter in family.parameters] for family in families]
+    for name, one, other in zip(names, *meanings, strict=True):
+        if one != other:
+            problem = f"{name} is the {other} here, and in {A.name} the {one}"
+            raise InputError(problem, place=B.name, hint="a grid over 'trail' is one over the trail of any")
 
 
 def _span(axes: _Axes, name: str) -> str:

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from bikestab_cli.output import DESIGN_HEAD, design_columns, letter_of, prose, table, within
+from bikestab_cli.output import DESIGN_HEAD, design_columns, prose, table, within
+
+from bikestab.records import letter_of
 
 _BESIDE = 4  # machines in a table, at most
+_MOST = 1000  # per cent: of what is nearly zero they say nothing
 Change = Mapping[str, Any]
 
 
@@ -28,18 +31,22 @@ def told(record: Mapping[str, Any]) -> str:
     return "\n\n".join([*parts, *_verdict([record])])
 
 
-def told_all(records: Sequence[Mapping[str, Any]]) -> str:
-    """The first and all others: values of each, and in per cent by how much they differ from the first's."""
+def told_all(records: Sequence[Mapping[str, Any]], parameters: Sequence[Sequence[Change]]) -> str:
+    """The first and all others: values of each, and by how much they differ from the first's.
+
+    ``parameters`` are those that differ, in one notation for all.
+    """
     sides = [records[0]["A"], *(record["B"] for record in records)]
     asked = records[0]["within"] is not None
     parts = _heads(sides)
     for start in range(0, len(records), _BESIDE - 1):
-        some = records[start : start + _BESIDE - 1]
-        letters = ["A", *(letter_of(start + i + 1) for i in range(len(some)))]
-        for first, kinds in (("parameter", ["parameters"]), ("", ["ends", "growth_rate"])):
-            rows = _beside(some, kinds, asked)
-            if rows:
-                parts.append(table([first, *letters], rows, fold=None if first else 0))
+        some = slice(start, start + _BESIDE - 1)
+        letters = ["A", *(letter_of(start + i + 1) for i in range(len(records[some])))]
+        if rows := _beside(parameters[some], asked, of_machine=True):
+            parts.append(table(["parameter", *letters], rows))
+        found = [[*record["ends"], *record["growth_rate"]] for record in records[some]]
+        if rows := _beside(found, asked):
+            parts.append(table(["", *letters], rows, fold=0))
     without = [letter_of(i) for i, side in enumerate(sides) if not side["design"]]
     if without:
         has = "has no design of its own" if len(without) == 1 else "have no design of their own"
@@ -75,17 +82,17 @@ def _verdict(records: Sequence[Mapping[str, Any]]) -> list[str]:
     return [f"{'within' if holds else 'BEYOND'} {limit if isinstance(limit, str) else f'{limit:g} m/s'}"]
 
 
-def _beside(records: Sequence[Mapping[str, Any]], kinds: Sequence[str], asked: bool) -> list[list[str]]:
-    """A row for each quantity that some have; of parameters = where one is the first's, else the change."""
+def _beside(found: Sequence[Sequence[Change]], asked: bool, *, of_machine: bool = False) -> list[list[str]]:
+    """A row for each quantity that some have; of a machine = where one is the first's, else the change."""
     rows: dict[str, list[str]] = {}
-    of_machine = "parameters" in kinds
-    for i, record in enumerate(records):
-        for change in (each for kind in kinds for each in record[kind]):
-            none = ["=" if of_machine else ""] * len(records)
+    for i, changes in enumerate(found):
+        for change in changes:
+            none = ["=" if of_machine else ""] * len(found)
             row = rows.setdefault(_named(change), [_cell(change, "A"), *none])
             shown = [_cell(change, "B")]
+            if not of_machine and change["change"] is not None:
+                shown.append(f"{percent} %" if (percent := _percent(change)) else f"{change['change']:+.3g}")
             if not of_machine:
-                shown.append("" if change["percent"] is None else f"{change['percent']:+.3g} %")
                 shown.append("BEYOND" if asked and change["within"] is False else "")
             row[i + 1] = "\n".join(filter(None, shown))
     return [[name, *row] for name, row in rows.items()]
@@ -94,6 +101,11 @@ def _beside(records: Sequence[Mapping[str, Any]], kinds: Sequence[str], asked: b
 def _regions(records: Sequence[Mapping[str, Any]], asked: bool) -> str:
     """The stable region of each, and by how much it differs from the first's."""
     first = records[0]["region"]
+    if any((_box(each), each["A"]) != (_box(first), first["A"]) for each in (r["region"] for r in records)):
+        return "\n\n".join(
+            prose(f"A and {letter_of(i)}, {_region(record['region'], asked)}")
+            for i, record in enumerate(records, 1)
+        )
     rows = [["A", within(first["A"], 11), *[""] * 4]]
     for i, record in enumerate(records, 1):
         found = record["region"]
@@ -108,9 +120,15 @@ def _regions(records: Sequence[Mapping[str, Any]], asked: bool) -> str:
 
 def _row(change: Change, asked: bool) -> list[str]:
     step = "" if change["change"] is None else within(change["change"], 10)
-    percent = "" if change["percent"] is None else f"{change['percent']:+.3g}"
+    percent = _percent(change) or ("" if change["percent"] is None else "-")
     verdict = "" if not asked or change["within"] is None else "" if change["within"] else "BEYOND"
     return [_named(change), _cell(change, "A"), _cell(change, "B"), step, percent, verdict]
+
+
+def _percent(change: Change) -> str:
+    """The change of what is not nearly zero."""
+    percent = change["percent"]
+    return "" if percent is None or abs(percent) >= _MOST else f"{percent:+.3g}"
 
 
 def _named(change: Change) -> str:

@@ -11,13 +11,13 @@ from bikestab_cli.output import (
     as_read,
     design_columns,
     heading,
-    letter_of,
     prose,
     span_read,
     table,
     within,
 )
 
+from bikestab.records import letter_of
 from bikestab.variants import parameter_of
 
 if TYPE_CHECKING:

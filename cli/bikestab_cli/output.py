@@ -132,11 +132,6 @@ def certain(value: float, error: float | None, most: int = 12, style: str = "f")
     return f"about {value:.6g}"
 
 
-def letter_of(number: int) -> str:
-    """A, B, ..., Z, AA, AB, ...: what stands for the machine of this number, from 0, in a table."""
-    return (letter_of(number // 26 - 1) if number >= 26 else "") + chr(ord("A") + number % 26)
-
-
 def within(value: float, letters: int) -> str:
     """A number in at most so many letters, of six digits where there is room for them."""
     texts = (f"{value:z.{digits}g}" for digits in range(6, 0, -1))

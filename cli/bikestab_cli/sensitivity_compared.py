@@ -6,11 +6,12 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from bikestab_cli.output import WIDTH, heading_of_all, letter_of, prose, table
+from bikestab_cli.output import WIDTH, heading_of_all, prose, table
 from bikestab_cli.sensitivity_found import Found
 from bikestab_cli.sensitivity_more import MOVED, effects_of
 from bikestab_cli.sensitivity_words import HELD, ends_of, share, widest_of
 
+from bikestab.records import letter_of
 from bikestab.widths import columns
 
 Effects = Mapping[str, tuple[float | None, ...]]

@@ -6,14 +6,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.figure import Figure
 from matplotlib.text import Text
+from scipy.optimize import isotonic_regression
 
 from bikestab.against import modes_against
 from bikestab.bicycle import Bicycle
 from bikestab.errors import InputError
 from bikestab.plot.ends import draw_ends
 from bikestab.plot.growth import draw_growth, draw_growth_against
-from bikestab.plot.sidelabels import MOST, lines_for, spread
+from bikestab.plot.sidelabels import MOST, Curve, label_curves, lines_for, spread
 from bikestab.region.answers import stable_speeds
 from bikestab.stability import growth_rate
 
@@ -135,7 +137,10 @@ def test_labels_of_several_rows_do_not_overlap(boxes):
     order = np.argsort(wanted, kind="stable")
     half = 0.5 * heights[order]
     assert np.all(np.diff(places[order]) >= half[1:] + half[:-1] - 1e-12)
-    assert places.mean() == pytest.approx(wanted.mean(), abs=0.5)
+    above = np.concatenate([[0.0], np.cumsum(half[1:] + half[:-1])])
+    nearest = isotonic_regression(wanted[order] - above).x  # of boxes without heights: least squares
+    nearest = nearest.clip(half[0], 1 - half[-1] - above[-1]) + above
+    assert places[order] == pytest.approx(nearest, abs=1e-12)
     assert min(places[order] - half) >= -1e-12  # in the axes, for all of them have room there
     assert max(places[order] + half) <= 1 + 1e-12
 
@@ -148,6 +153,27 @@ def test_labels_are_apart_and_in_order(wanted):
     far = np.diff(np.array(wanted)[order], prepend=-math.inf, append=math.inf)
     alone = (far[:-1] > 0.5) & (far[1:] > 0.5)  # with room for all others
     assert places[order][alone] == pytest.approx(np.array(wanted)[order][alone], abs=0.25)
+
+
+def test_a_curve_that_is_infinite_throughout_is_named_at_the_top():
+    """A massless front with its mass in the axis has p4 = 0: an infinite eigenvalue at every speed."""
+    parts = {"m1": 80, "l1": 0.4, "h1": 0.9, "A1": 3.3, "B1": 3.3, "D1": 0, "C1": 0.1, "m2": 1, "l2": 1}
+    front = dict.fromkeys(("h2", "A2", "B2", "D2", "C2", "lam", "sigma", "delta"), 0)
+    machine = Bicycle.from_mapping({"R": 0.3, "c": 1, "g": 9.8, **parts, **front})
+    assert np.isinf(growth_rate(machine, [0, 5])).all()
+    all_ = [("massless", machine, 0.0, 0.0, "refined"), *presets("meijaard2007")]
+    for machines in (all_, all_[:1], all_[::-1]):
+        names = names_in(draw_growth(machines, 0, 10))
+        assert {*names} == {"massless: infinite\nthroughout" if n == "massless" else n for n, *_ in machines}
+
+
+def test_a_curve_without_a_point_has_no_name():
+    ax = Figure().add_subplot()
+    x = np.linspace(0, 1, 3)
+    label_curves(ax, [Curve("none", x, np.full(3, np.nan), "#4477AA")])
+    assert not ax.texts
+    label_curves(ax, [Curve("none", x, np.full(3, np.inf), "#4477AA"), Curve("one", x, x, "#4477AA")])
+    assert [text.get_text() for text in ax.texts] == ["one"]
 
 
 def test_as_many_names_as_there_may_be_are_in_the_picture():
