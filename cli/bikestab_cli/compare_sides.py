@@ -122,25 +122,25 @@ def paired(A: Found, B: Found) -> tuple[Side, Side, Box]:
 
     from bikestab.comparison import Box, box_of
 
-    sides, known = (A.side, B.side), [axes for axes in (A.axes, B.axes) if axes]
+    one, other, known = A.side, B.side, [axes for axes in (A.axes, B.axes) if axes]
     names = known[0].names if known else ("lam", "sigma")
     if known and known[-1].names != names:
-        one, other = (" and ".join(axes.names) for axes in known)
+        first, second = (" and ".join(axes.names) for axes in known)
         hint = "give a bicycle in place of one of them: it takes the other's axes"
-        problem = f"is over {other}, and {A.side.name} over {one}"
-        raise InputError(problem, place=B.side.name, hint=hint)
-    _check_meanings(*sides, names)
+        problem = f"is over {second}, and {one.name} over {first}"
+        raise InputError(problem, place=other.name, hint=hint)
+    _check_meanings(one, other, names)
     ends: Any = BOX
     if known:
         both = [zip(*pairs, strict=True) for pairs in zip(*(axes.ends for axes in known), strict=True)]
         ends = tuple((max(low), min(high)) for low, high in both)
     for name, (low, high) in zip((*names, "V"), ends, strict=True):
         if low > high:
-            problem = f"has no {name} in common with {A.side.name}"
-            raise InputError(problem, place=B.side.name, hint="; ".join(_span(axes, name) for axes in known))
+            problem = f"has no {name} in common with {one.name}"
+            raise InputError(problem, place=other.name, hint="; ".join(_span(axes, name) for axes in known))
     if known and np.array_equal(known[0].x, known[-1].x) and np.array_equal(known[0].y, known[-1].y):
-        return *sides, Box(known[0].x, known[0].y, ends, names)
-    return *(side._replace(stored=None) for side in sides), box_of(ends, names)
+        return one, other, Box(known[0].x, known[0].y, ends, names)
+    return one._replace(stored=None), other._replace(stored=None), box_of(ends, names)
 
 
 def _check_meanings(A: Side, B: Side, names: tuple[str, str]) -> None:
