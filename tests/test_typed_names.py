@@ -20,7 +20,7 @@ RIDDEN = Bicycle.from_mapping(
 )
 PARTS = [*PAPER.given, "R"]
 NAMES = [
-    *((bicycle, name) for bicycle in (BIKE, PAPER, RIDDEN) for name in {*bicycle.given, *FRONT}),
+    *((bicycle, name) for bicycle in (BIKE, PAPER, RIDDEN) for name in sorted({*bicycle.given, *FRONT})),
     *((BIKE, name) for name in PARTS if name not in MEIJAARD),
     (PAPER, "R"),
 ]
