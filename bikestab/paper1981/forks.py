@@ -9,8 +9,6 @@ import numpy as np
 from bikestab.bicycle import Bicycle
 from bikestab.machines import Machines
 
-FORWARDS = "forks bent forwards"  # b >= 0, as nearly all bicycles and motorcycles have them
-
 
 def offset(bicycle: Bicycle | Machines, lam: Any, sigma: Any) -> Any:
     """The fork offset b [m] = R2 sin λ − c1 of designs, c1 = σ c cos λ; positive = bent forwards."""

@@ -46,7 +46,8 @@ _HELPED = 40  # machines of which a table tells what would help
 @sd_option
 @click.option(
     "-o", "--output", type=PICTURE, metavar="FILE",
-    help="Draw the stable speeds as PNG, PDF or SVG: over one range, or a bar for each machine.",
+    help="Draw the stable speeds as PNG, PDF or SVG: over one range, however coarse NUM, or a bar for each "
+    "machine.",
 )  # fmt: skip
 @json_option
 def command(
@@ -132,7 +133,7 @@ def command(
         from bikestab.plot.files import save
 
         common, names = told_apart([each.machine for each in shown])
-        answers = [with_spreads(each.answers, each.spreads) for each in shown]
+        answers = [_drawn(each, given, model) for each in shown]
         save(draw_ends([*zip(names, answers, strict=True)], axis, name=common), Path(output))
         files["picture"] = output
     if as_json:
@@ -164,6 +165,24 @@ def _found(
     doubt_designs(given, least[0], least[1], bicycle.c)
     designs = [(bicycle, answer["lam"], answer["sigma"]) for answer in answers]
     return Found(machine, answers, spreads(bicycle, designs, model, *deviations))
+
+
+def _drawn(found: Found, given: Given, model: Model) -> Sequence[Mapping[str, Any]]:
+    """What a picture shows of one machine: along a range also what is between its values."""
+    from bikestab.region.answers import stable_speeds
+    from bikestab.region.closer import closer
+
+    own = with_spreads(found.answers, found.spreads)
+    bicycle = found.machine.bicycle
+    name = next((name for name in given if not is_single({name: given[name]})), "")
+    if not name:
+        return own
+
+    def at(new: list[float]) -> Sequence[Mapping[str, Any]]:
+        lam, sigma = designs_chosen(bicycle, {**given, name: new})
+        return stable_speeds(bicycle, lam, sigma, model=model, nearest=False)
+
+    return closer(given[name], own, at)
 
 
 def _axis_drawn(given: Given) -> str:

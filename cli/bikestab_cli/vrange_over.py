@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.designless import results_of_all, told_without, with_design
@@ -100,7 +100,22 @@ def _draw(
                 if others.items() <= point.items()
             ]
             whose.append(own)
-            curves.append(at)
+            curves.append(_closer(machine, over[name], at, name, others, model) if axis else at)
     common, names = told_apart(whose)
     label = "" if axis in AXES else label_of(parameter_of(machines[0].bicycle, name))
     save(draw_ends([*zip(names, curves, strict=True)], axis, label, common), Path(output))
+
+
+def _closer(
+    machine: Chosen, values: Sequence[float], answers: Sequence[Mapping[str, Any]], name: str,
+    others: Mapping[str, float], model: Model,
+) -> Sequence[Mapping[str, Any]]:  # fmt: skip
+    """The answers along one parameter, and more in between them, for a curve."""
+    from bikestab.region.answers import stable_speeds_over
+    from bikestab.region.closer import closer
+
+    def at(new: list[float]) -> list[Mapping[str, Any]]:
+        every = {**{other: [value] for other, value in others.items()}, name: new}
+        return [{name: p[name], **a} for p, a in stable_speeds_over(machine.bicycle, every, model=model)]
+
+    return closer(values, answers, at)

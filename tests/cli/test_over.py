@@ -1,5 +1,6 @@
 """Several machines and several values in one picture: what is refused, and what tells them apart."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -89,3 +90,20 @@ def test_what_is_not_told_is_not_computed(bikestab, monkeypatch):
 def test_the_heading_is_silent_of_a_damping_that_is_set(bikestab):
     code, out, _ = bikestab("sensitivity", *BENCHMARK, "--set", "delta=1,2")
     assert (code, out.splitlines()[0]) == (0, "refined model")
+
+
+@pytest.mark.parametrize(
+    "varied", [("--trail", "0:15cm:3"), ("--over", "trail=0:15cm:3"), ("--over", "mB=20:110:2")], ids=" ".join
+)
+def test_a_picture_has_more_values_than_the_table(bikestab, monkeypatch, varied):
+    draw, drawn = ends.draw_ends, []
+
+    def kept(machines, *args, **more):
+        drawn.extend(len(answers) for _, answers in machines)
+        return draw(machines, *args, **more)
+
+    monkeypatch.setattr(ends, "draw_ends", kept)
+    code, out, _ = bikestab("vrange", *BENCHMARK, *varied, "-o", "v.png", "--json")
+    assert (code, len(json.loads(out)["results"])) == (0, int(varied[1][-1]))
+    assert len(drawn) == 1
+    assert drawn[0] >= 201
