@@ -17,6 +17,10 @@ design, a machine, a config. What is common to all of them stands beside it, and
 written. Numbers have all their digits, in SI units; angles are in radians but for `head_angle_deg`. The
 tables say which keys can be `null`. `certify` alone prints one object without `results`.
 
+Of one bicycle as it is, `bicycle`, `model` and `delta` beside `results` tell all. Where there are several, or
+`--set` changes one, each of `results` has its own `bicycle`, and in `set` what was changed; the `bicycle` and
+`delta` beside them are then lists if they differ.
+
 `bikestab schema COMMAND` prints the same as JSON Schema; the tests validate every command's output by it.
 
 ```sh

@@ -26,15 +26,17 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]], name: str = "") ->
     lines = lines_for(len(machines))
     figure = Figure(figsize=(6.2, 4.4), layout="constrained")
     ax = figure.add_subplot()
-    curves, any_own = [], False
+    curves, owns = [], []
     for (whose, _, best), line in zip(machines, lines, strict=True):
         x, y = np.array([(d["width"], d["growth_rate"]) for d in best.pareto[::-1]]).reshape(-1, 2).T
         ax.plot(x, y, marker=line.marker, ms=4, color=line.color, ls=line.ls)
         own = best.own
         if own and own["V1"] is not None and own["growth_rate"] is not None:
             place = np.array([own["width"]]), np.array([own["growth_rate"]])
-            ax.plot(*place, line.marker, ms=_OWN, color=line.color, mec="black", mew=1.2, zorder=4)
-            any_own = True
+            face = "white" if own["at"] else line.color  # hollow: it competes with no design of the front
+            edge = line.color if own["at"] else "black"
+            ax.plot(*place, line.marker, ms=_OWN, mfc=face, mec=edge, mew=1.2, zorder=4)
+            owns.append(own["at"])
         else:
             place = np.zeros(1), np.zeros(1)
         curves.append(
@@ -46,8 +48,10 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]], name: str = "") ->
     ax.set_xlim(left=0)
     ticks_inside(ax)
     label_curves(ax, curves)
-    style: dict[str, Any] = {"marker": "o", "ms": _OWN, "color": "0.6", "mec": "black", "mew": 1.2, "ls": ""}
-    legend_below(figure, [Line2D([], [], label="own design of each", **style)] if any_own else [])
+    style: dict[str, Any] = {"marker": "o", "ms": _OWN, "mew": 1.2, "ls": ""}
+    words = {at: f"own design, {at}" if at else "own design of each" for at in sorted({*owns})}
+    faces = {at: {"mfc": "white", "mec": "0.4"} if at else {"mfc": "0.6", "mec": "black"} for at in words}
+    legend_below(figure, [Line2D([], [], label=words[at], **style, **faces[at]) for at in words])
     title = "width-decay fronts: no other design is better in both"
     set_title(ax, f"{short(name)}: {title}" if name else title.capitalize())
     return figure

@@ -67,4 +67,14 @@ _EIGEN = of_machines(
     V=some(NUMBERS, "speeds [m/s]"), branches=_BRANCHES, at=num("the speed [m/s]"), shapes=_SHAPES,
     push=_PUSH, motion=_MOTION,
 )  # fmt: skip
-EIGEN = or_problems({**_EIGEN, "properties": {**_EIGEN["properties"], "ranges": _RANGES}})
+_RESULTS = _EIGEN["properties"]["results"]
+_KINDS = (_ALONG, ("at", "shapes"), ("at", "push", "motion"))  # of results: each has all of one, and no other
+_RESULT = {**_RESULTS["items"], "oneOf": [{"required": [*kind]} for kind in _KINDS]}
+EIGEN = or_problems(
+    {
+        **_EIGEN,
+        "properties": {
+            **_EIGEN["properties"], "results": {**_RESULTS, "items": _RESULT}, "ranges": _RANGES,
+        },
+    }
+)  # fmt: skip

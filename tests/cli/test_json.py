@@ -103,6 +103,30 @@ def test_the_schemas_are_schemas_and_closed(bikestab, name):
         assert "properties" not in inner or "additionalProperties" in inner
 
 
+@pytest.mark.parametrize("view", [("--V", "0:5:3"), ("--shapes", "--at", "5"), ("--push", "roll_rate=0.5")])
+def test_the_schema_of_eigen_wants_all_that_belongs_to_what_is_asked(bikestab, view):
+    found = json.loads(bikestab("eigen", *BENCHMARK, *view, "--json")[1])
+    (result,) = found["results"]
+    for key in result:
+        without = {name: value for name, value in result.items() if name != key}
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate({**found, "results": [without]}, SCHEMAS["eigen"])
+
+
+def test_whose_a_result_is_stands_beside_it_where_there_are_several(bikestab):
+    """As docs/json.md says of all commands about machines."""
+    for args in (("vrange",), ("eigen", "--V", "5:5:1"), ("sensitivity",)):
+        own = json.loads(bikestab(*args, *BENCHMARK, "--json")[1])
+        assert (own["bicycle"], own["delta"], "bicycle" in own["results"][0]) == ("meijaard2007", 0, False)
+        found = json.loads(bikestab(*args, *BENCHMARK, "--bicycle", "sharp1971", "--json")[1])
+        assert [each["bicycle"] for each in found["results"]] == found["bicycle"]
+        assert found["bicycle"] == ["meijaard2007", "sharp1971"]
+        assert len(found["delta"]) == 2
+        found = json.loads(bikestab(*args, *BENCHMARK, "--set", "mB=80,90", "--json")[1])
+        assert [each["set"] for each in found["results"]] == [{"mB": 80}, {"mB": 90}]
+        assert (found["bicycle"], found["delta"]) == ("meijaard2007", 0)
+
+
 def test_a_schema_that_is_not_there(bikestab):
     code, out, err = bikestab("schema", "vrnge")
     assert (code, out) == (2, "")
