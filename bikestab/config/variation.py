@@ -7,15 +7,16 @@ from functools import cached_property
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
+from bikestab import yamltext
 from bikestab.bicycle import PAPER, Bicycle
 from bikestab.config.correlation import check_pairs, correlations_read, pair_of
 from bikestab.config.distributions import Distribution as Distribution
 from bikestab.config.values import Share, Strict, all_of, in_si, increasing, mistake
 from bikestab.draws import correlated
-from bikestab.errors import nearest
+from bikestab.errors import InputError, nearest
 from bikestab.gains import GAINS
 from bikestab.machines import Machines, uniforms
 from bikestab.model import Floats
@@ -149,3 +150,11 @@ class Ensemble(Strict):
         """
         numbers = {name: x for name, x in self.drawn.items() if not front_of(bicycle, name)}
         return Machines.drawn(bicycle, numbers or {"g": np.full(self.samples, bicycle.g)})
+
+
+def ensemble_in(text: str) -> Ensemble | None:
+    """The ensemble in a config's YAML text; None where there is none in it alone that this build reads."""
+    try:
+        return Ensemble.model_validate(yamltext.parse(text, "config").data["ensemble"])
+    except (InputError, KeyError, ValidationError):
+        return None

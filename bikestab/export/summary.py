@@ -26,6 +26,7 @@ def summary(volume: Volume) -> dict[str, Any]:
         "delta": volume.bicycle.delta,
         "fields": [*volume.fields, *(["certified"] if "certified" in file else [])],
         "ensemble_samples": volume.samples,
+        "drawn": _drawn(volume) if volume.samples else {},
         "points": prod(len(file[name]) for name in (*volume.swept, *volume.axes)),
         "stable_points": int(file.attrs["stable_points"]),
         "designs": int(number.size),
@@ -70,6 +71,18 @@ def _machines(volume: Volume) -> list[dict[str, Any]]:
             }
         )  # fmt: skip
     return machines
+
+
+def _drawn(volume: Volume) -> dict[str, dict[str, list[float]]]:
+    """An ensemble's parameters, each with the name of its distribution and the numbers of it."""
+    from bikestab.config.variation import ensemble_in
+
+    ensemble = ensemble_in(volume.text("config"))
+    parameters = ensemble.parameters if ensemble else {}
+    return {
+        name: {kind: list(values) for kind, values in one.model_dump(exclude_unset=True).items()}
+        for name, one in parameters.items()
+    }
 
 
 def _quantiles(volume: Volume) -> tuple[dict[str, float], list[dict[str, float | None]]]:

@@ -50,7 +50,9 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]], name: str = "") ->
     label_curves(ax, curves)
     style: dict[str, Any] = {"marker": "o", "ms": _OWN, "mew": 1.2, "ls": ""}
     words = {at: f"own design, {at}" if at else "own design of each" for at in sorted({*owns})}
-    faces = {at: {"mfc": "white", "mec": "0.4"} if at else {"mfc": "0.6", "mec": "black"} for at in words}
+    faces: dict[str, dict[str, Any]] = {
+        at: {"mfc": "white", "mec": "0.4"} if at else {"mfc": "0.6", "mec": "black"} for at in words
+    }
     legend_below(figure, [Line2D([], [], label=words[at], **style, **faces[at]) for at in words])
     title = "width-decay fronts: no other design is better in both"
     set_title(ax, f"{short(name)}: {title}" if name else title.capitalize())

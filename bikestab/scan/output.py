@@ -13,11 +13,9 @@ from typing import Any
 
 import h5py
 import numpy as np
-from pydantic import ValidationError
 
-from bikestab import yamltext
 from bikestab.config.scanconfig import ScanConfig
-from bikestab.config.variation import Ensemble
+from bikestab.config.variation import ensemble_in
 from bikestab.errors import KEPT, NOT_KEPT, InputError, ScanError, dotted
 from bikestab.fields import FIELDS, GRADIENTS, gradient_names
 from bikestab.files import NO_SPACE, beside, linked
@@ -216,11 +214,8 @@ def _ensemble(volume: Volume) -> str | None:
     """What the volume's ensemble means."""
     if not volume.samples:
         return None
-    try:
-        given = yamltext.parse(volume.text("config"), "config").data["ensemble"]
-        return digest(Ensemble.model_validate(given).meaning)
-    except (InputError, KeyError, ValidationError):  # no text of a config that this build reads
-        return ""
+    found = ensemble_in(volume.text("config"))
+    return digest(found.meaning) if found else ""
 
 
 def _shown(value: object) -> str:

@@ -43,7 +43,9 @@ def command(volume: str, show_config: bool, as_json: bool) -> None:
 
 def _told(summary: dict[str, Any]) -> str:
     """A line for each entry, those of the sweep and of the axes with their values."""
-    axes, sweep, warnings, machines = (summary.pop(key) for key in ("axes", "sweep", "warnings", "machines"))
+    axes, sweep, drawn, warnings, machines = (
+        summary.pop(key) for key in ("axes", "sweep", "drawn", "warnings", "machines")
+    )
     width = max(map(len, summary)) + 2
     lines = []
     for key, value in summary.items():
@@ -55,6 +57,9 @@ def _told(summary: dict[str, Any]) -> str:
         lines.append((key.replace("_", " "), shown))
     for name, values in sweep.items():
         lines.append((name, f"{', '.join(f'{value:g}' for value in values)} (sweep)"))
+    lines += [(name, _distribution(*each)) for name, one in drawn.items() for each in one.items()]
+    if summary["ensemble_samples"] and not drawn:
+        lines.append(("drawn", "as a file says that --config names"))
     for name, axis in axes.items():
         steps = "equal steps" if axis["uniform"] else "own values"
         unit = "" if axis["unit"] == "1" else f" {axis['unit']}"
@@ -69,6 +74,15 @@ def _told(summary: dict[str, Any]) -> str:
     if machines:
         told += ["", *_machines(machines)]
     return "\n".join(told)
+
+
+def _distribution(kind: str, numbers: list[float]) -> str:
+    """How a parameter is drawn, in words: the same as in the schema of a config."""
+    from bikestab.config.distributions import Distribution
+
+    names = (Distribution.model_fields[kind].description or "").rpartition(": ")[2].split(", ")
+    values = (f"{name} {value:g}" for name, value in zip(names, numbers, strict=True))
+    return f"{kind}: {', '.join(values)} (drawn)"
 
 
 def _machines(machines: list[dict[str, Any]]) -> list[str]:

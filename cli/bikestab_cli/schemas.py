@@ -208,7 +208,12 @@ SCHEMAS: dict[str, Schema] = {
             "a volume", volume=words("the file"), title=words("its title"), bicycle=words("its bicycle"),
             model=MODEL,
             delta=num("steering damping [kg m²/s]"), fields=some(TEXTS, "what it holds over the grid"),
-            ensemble_samples=whole("machines drawn; 0: no ensemble"), points=whole("of the grid"),
+            ensemble_samples=whole("machines drawn; 0: no ensemble"),
+            drawn=named(
+                named(some(NUMBERS, "its numbers, as in a config, in SI units"), "the kind of distribution"),
+                "the ensemble's parameters; empty without one, or if a file has them that the config names",
+            ),
+            points=whole("of the grid"),
             stable_points=whole("of these"), designs=whole("of the grid"),
             designs_with_a_stable_speed=whole("of these"), designs_with_several_intervals=whole("of these"),
             designs_stable_without_upper_limit=whole("of these"),

@@ -133,6 +133,39 @@ def test_info(scan, bikestab):
     quantile = found["machines"][1]["quantiles"][0]
     assert f"{quantile['V1']:.4f}" in out
     assert found["machines"][1]["set"] == {"delta": 2}
+    assert found["drawn"] == {"mB": {"normal": [85, 8]}}
+
+
+@pytest.mark.parametrize(
+    ("given", "drawn", "words"),
+    [
+        ("mB: {normal: [85kg, 8kg]}", {"mB": {"normal": [85, 8]}}, "normal: mean 85, standard deviation 8"),
+        ("rF: {uniform: [34cm, 0.36]}", {"rF": {"uniform": [0.34, 0.36]}}, "uniform: low 0.34, high 0.36"),
+        (
+            "mH: {lognormal: [4, 0.1]}", {"mH": {"lognormal": [4, 0.1]}},
+            "lognormal: median 4, standard deviation of the logarithm 0.1",
+        ),
+        (
+            "delta: {truncated: [1, 0.5, 0, 3]}", {"delta": {"truncated": [1, 0.5, 0, 3]}},
+            "truncated: mean 1, standard deviation 0.5, low 0, high 3",
+        ),
+    ],
+)  # fmt: skip
+def test_info_says_what_is_drawn(scan, bikestab, given, drawn, words):
+    scan(f"ensemble: {{{given}, samples: 4}}\n")
+    assert json.loads(bikestab("info", "out/a", "--json")[1])["results"][0]["drawn"] == drawn
+    lines = bikestab("info", "out/a")[1].splitlines()
+    assert all(len(line) <= 80 for line in lines)
+    (name,) = drawn
+    assert f"{name} {words} (drawn) lam " in " ".join(" ".join(lines).split())
+
+
+def test_info_of_a_covariance_file(scan, bikestab):
+    Path("cov.csv").write_text("mB,mH\n4,0.1\n0.1,0.04\n", "utf-8")
+    scan("ensemble: {covariance: cov.csv, samples: 4}\n")
+    assert json.loads(bikestab("info", "out/a", "--json")[1])["results"][0]["drawn"] == {}
+    assert "as a file says that --config names" in bikestab("info", "out/a")[1]
+    assert "cov.csv" in bikestab("info", "out/a", "--config")[1]
 
 
 def test_a_probability_between_two_planes_is_that_of_the_nearest(scan, bikestab):
