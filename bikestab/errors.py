@@ -145,11 +145,15 @@ def dotted(key: Sequence[str | int]) -> str:
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """A hint that names the known word nearest to ``word``, or all of them where none is near."""
+    known = list(known)
+    near = similar(word, {name: name for name in known})
+    return f"did you mean {near!r}?" if near else f"known: {', '.join(known)}"
+
+
+def similar(word: str, known: Mapping[str, str]) -> str:
+    """What stands at the known word nearest to ``word``; empty where none is near."""
     import difflib  # only a mistake needs it
 
-    known = list(known)
-    folded = {k.casefold(): k for k in known}
+    folded = {name.casefold(): meant for name, meant in known.items()}
     match = difflib.get_close_matches(word.casefold(), folded, n=1, cutoff=0.6)
-    if match:
-        return f"did you mean {folded[match[0]]!r}?"
-    return f"known: {', '.join(known)}"
+    return folded[match[0]] if match else ""

@@ -11,7 +11,7 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-from bikestab.errors import InputError
+from bikestab.errors import InputError, similar
 
 MOST_BYTES = 2_000_000
 PATIENCE = 30.0  # s that a pipe may take
@@ -27,9 +27,11 @@ def read_text(path: str | Path, most: int = MOST_BYTES) -> str:
     try:
         content = _read(path, most)
     except FileNotFoundError:
-        raise InputError("there is no such file", place=file, hint=_neighbours(Path(path))) from None
+        raise InputError(
+            "there is no such file", place=file, hint=_neighbours(Path(path).parent, Path(path))
+        ) from None
     except IsADirectoryError:
-        hint = _neighbours(Path(path, "file"))
+        hint = _neighbours(Path(path), Path())
         raise InputError("is a folder, not a file", place=file, hint=hint) from None
     except OSError as error:
         denied = "its mode allows no reading: 'chmod u+r' does" if error.errno == errno.EACCES else ""
@@ -98,14 +100,17 @@ def _wait(descriptor: int, end: float) -> None:
         raise OSError(errno.ETIMEDOUT, f"it did not end within {PATIENCE:g} s")
 
 
-def _neighbours(path: Path) -> str:
-    folder, others = path.parent, {path.suffix} & {".txt", ".json", ".ini"}
+def _neighbours(folder: Path, path: Path) -> str:
+    """The file in a folder that ``path`` is similar to, or else which are there."""
+    others = {path.suffix} & {".txt", ".json", ".ini"}
     try:
         names = sorted(p.name for p in folder.iterdir() if p.suffix in {".yaml", ".yml"} | others)
     except OSError as error:
         if isinstance(error, FileNotFoundError):
             return f"the folder {str(folder)!r} does not exist either"
         return f"the folder {str(folder)!r} cannot be read ({error.strerror})"
+    if near := similar(path.stem, {Path(name).stem: name for name in names}):
+        return f"did you mean {str(folder / near)!r}?"
     told = [*names[:_MOST_NAMES], *(["..."] if len(names) > _MOST_NAMES else [])]
     kinds = " and ".join(["YAML", *others])
     return f"{kinds} files in {str(folder)!r}: {', '.join(told) or 'none'}"

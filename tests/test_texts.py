@@ -87,6 +87,9 @@ def test_what_is_no_text():
     assert told("a") == f"{problem}\nit is no text at all"
     Path("b.yaml").touch()
     assert told(".") == ".: is a folder, not a file\nYAML files in '.': b.yaml"
+    Path("folder").mkdir()
+    Path("folder/file.yaml").touch()
+    assert told("folder") == "folder: is a folder, not a file\nYAML files in 'folder': file.yaml"
 
 
 def test_what_is_not_there(monkeypatch):
@@ -100,6 +103,10 @@ def test_what_is_not_there(monkeypatch):
     for name in [*(f"{i}.yaml" for i in range(9)), "8.txt", "9.json"]:
         Path(name).touch()
     assert told("b.yaml").endswith("'.': 0.yaml, 1.yaml, 2.yaml, 3.yaml, 4.yaml, 5.yaml, 6.yaml, 7.yaml, ...")
+    Path("heavy.yaml").touch()
+    for name in ("heavyy.yaml", "Heavy.yml", "heavy"):
+        assert told(name) == f"{name}: there is no such file\ndid you mean 'heavy.yaml'?"
+    Path("heavy.yaml").unlink()
     for name in range(8):
         Path(f"{name}.yaml").unlink()
     assert told("b.txt").endswith("YAML and .txt files in '.': 8.txt, 8.yaml")

@@ -12,12 +12,14 @@ from bikestab_cli.chosen import Given, design_chosen
 from bikestab_cli.options import load_bicycle, tell_once, warn
 
 from bikestab.errors import InputError, nearest
+from bikestab.texts import is_there
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
     from bikestab.comparison import Box, Side
     from bikestab.model import Model
 
+_OF_VOLUMES = (".h5", ".hdf5")
 BOX = ((0.0, 0.6), (0.0, 0.3), (0.0, 30.0))  # that in which 'bikestab design' searches
 
 
@@ -50,7 +52,8 @@ class Found(NamedTuple):
 def opened(name: str, asked: Asked) -> Found:
     from bikestab.formats.kinds import kind_of
 
-    if Path(name).is_dir() or kind_of(name) == "volume":
+    missing = Path(name).suffix in _OF_VOLUMES and not is_there(name)
+    if missing or Path(name).is_dir() or kind_of(name) == "volume":
         return _volume(name, asked)
     if kind_of(name) == "config":
         return _config(name, asked)

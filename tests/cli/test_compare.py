@@ -299,6 +299,10 @@ def test_growth_rates_are_drawn_to_beyond_the_ends():
         (("f.yaml", "meijaard2007", "sharp1971"), "sharp1971: the bicycle 'sharp1971' has no parameter 'mB'"),
         (("c.yaml", "sharp1971"), "sharp1971: c is the wheelbase here, and in c.yaml the trail along"),
         (("meijaard2007", "sharp1971", "nothing"), "there is no bicycle 'nothing'"),
+        (("meijaard2007", "sharp1917"), "did you mean 'sharp1971'?"),
+        (("meijaard2007", "first.yaml"), "first.yaml: there is no such file\n  YAML files in '.': a.yaml"),
+        (("meijaard2007", "scan.yml"), "scan.yml: there is no such file\n  did you mean 'scans.yaml'?"),
+        (("meijaard2007", "out/a.h5"), "out/a.h5: there is no such volume"),
         (("f.yaml", "b.yaml"), "b.yaml: is over lam and sigma, and f.yaml over mB and xB"),
     ],
 )
@@ -311,6 +315,7 @@ def test_mistakes(bikestab, args, words):
     Path("f.yaml").write_text(
         f"bicycle: meijaard2007\n{family}, V: {{start: 0, stop: 9, num: 9}}}}\n", "utf-8"
     )
+    Path("scans.yaml").touch()
     Path("c.yaml").write_text(
         Path("f.yaml").read_text("utf-8").replace("mB", "c").replace("xB", "delta"), "utf-8"
     )
