@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from bikestab.comparison import Box, Side
     from bikestab.model import Model
 
-_OF_VOLUMES = (".h5", ".hdf5")
 BOX = ((0.0, 0.6), (0.0, 0.3), (0.0, 30.0))  # that in which 'bikestab design' searches
 
 
@@ -52,8 +51,9 @@ class Found(NamedTuple):
 def opened(name: str, asked: Asked) -> Found:
     from bikestab.formats.kinds import kind_of
 
-    missing = Path(name).suffix in _OF_VOLUMES and not is_there(name)
-    if missing or Path(name).is_dir() or kind_of(name) == "volume":
+    path = Path(name)
+    named = path.suffix in (".h5", ".hdf5") or ("/" in name and not path.suffix)
+    if (named and not is_there(name)) or path.is_dir() or kind_of(name) == "volume":
         return _volume(name, asked)
     if kind_of(name) == "config":
         return _config(name, asked)

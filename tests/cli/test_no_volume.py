@@ -36,8 +36,6 @@ WORDS_OF_OTHERS = {  # of compare, which takes bicycles and configs as well
     "text.h5": "is named as a volume, and is neither one nor a bicycle's file",
     "empty.h5": "is named as a volume, and is neither one nor",
     "noise.h5": "is named as a volume, and is neither one nor",
-    "whole/volume": "there is no such file",
-    "none.h5": "there is no such file",
 }
 
 
