@@ -34,7 +34,7 @@ BROKEN = {  # what is in the file, what is said of it, and what to do
     "bicycle.yaml": (b"w: 1.02\nmB: 85\n", "is a bicycle's file", "'bicycle:' in a config"),
     "in_place.yaml": (b"bicycle: {w: 1.02, lamm: 18deg}" + ONE, "bicycle.lamm: unknown", "'lam'?"),
     "folder": (None, "is a folder, not a file", "YAML files in 'folder': inner.yaml"),
-    "none.yaml": (None, "there is no such file", "YAML files in '.': "),
+    "none.yaml": (None, "there is no such file", "did you mean 'noise.yaml'?"),
 }  # fmt: skip
 
 
