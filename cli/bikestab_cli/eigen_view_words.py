@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from bikestab_cli.eigen_words import eigenvalue, eigenvalue_table, narrowed
 from bikestab_cli.output import DESIGN_HEAD, aligned, as_read, decimals, design_columns, heading, prose, table
+from bikestab_cli.several import Chosen, digits_of
 
 if TYPE_CHECKING:
-    from bikestab_cli.several import Chosen
-
     from bikestab.against import Against
     from bikestab.model import Model
     from bikestab.motion import Motion, Shapes
@@ -86,7 +85,8 @@ def told_against(
     def read(value: float) -> float:
         return as_read(found.name, value, "")[0]
 
-    rows = [(f"{read(found.values[i]):.6g}", found.modes[i]) for i in every]
+    digits = max(6, digits_of({found.name: found.values.tolist()}))
+    rows = [(f"{read(found.values[i]):.{digits}g}", found.modes[i]) for i in every]
     unit = as_read(found.name, 0.0, unit)[1]
     words = f"{found.name} [{unit}] at {V:.6g} m/s"
     if len(rows) < len(found.values):

@@ -17,10 +17,9 @@ from bikestab_cli.output import (
     prose,
     table,
 )
+from bikestab_cli.several import Chosen, digits_of
 
 if TYPE_CHECKING:
-    from bikestab_cli.several import Chosen
-
     from bikestab.bicycle import Bicycle
     from bikestab.design.spread import Spread
     from bikestab.model import Model
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
 
 _HEAD = [*DESIGN_HEAD, "V1 [m/s]", "V2 [m/s]"]
 _FEWER = 9  # digits behind the point where machines stand beside them
+_DIGITS = 6  # of a value, or as many as tell it from the others
 _FEWEST = 3  # where parameters have long names
 
 
@@ -99,7 +99,9 @@ def told_over(
     from bikestab.variants import parameter_of
 
     named = [parameter_of(machine.bicycle, name) for name in points[0][0]]
-    places = [", ".join(f"{n} = {_value(n, x)}" for n, x in point.items()) for point, _ in points]
+    values = {name: [point[name] for point, _ in points] for name in points[0][0]}
+    told_apart = max(_DIGITS, digits_of(values))
+    places = [", ".join(f"{n} = {_value(n, x, told_apart)}" for n, x in point.items()) for point, _ in points]
     notes = [
         f"marginal at {place}: {answer['reason']}"
         for place, (_, answer) in zip(places, points, strict=True)
@@ -113,21 +115,23 @@ def told_over(
     head = [f"{name}\n[{unit}]".removesuffix("\n[1]") for name, unit in zip(names, units, strict=True)]
     changed = f" ({machine.changes})" if machine.set else ""
     for digits in range(_FEWER, _FEWEST - 1, -1):
-        told = table([*head, *_HEAD], _rows_over(points, digits))
+        told = table([*head, *_HEAD], _rows_over(points, digits, told_apart))
         if max(map(len, told.split("\n"))) <= WIDTH:
             break
     text = [prose(heading(machine.bicycle, model, points[0][0]) + changed) + "\n", told]
     return "\n".join([*text, *map(prose, notes)])
 
 
-def _value(name: str, value: float) -> str:
-    return f"{as_read(name, value, '')[0]:.6g}"
+def _value(name: str, value: float, digits: int) -> str:
+    return f"{as_read(name, value, '')[0]:.{digits}g}"
 
 
-def _rows_over(points: Sequence[tuple[dict[str, float], Answer]], digits: int) -> list[list[str]]:
+def _rows_over(
+    points: Sequence[tuple[dict[str, float], Answer]], digits: int, told_apart: int
+) -> list[list[str]]:
     rows = []
     for point, answer in points:
-        values = [_value(name, value) for name, value in point.items()]
+        values = [_value(name, value, told_apart) for name, value in point.items()]
         for row in _rows([answer], digits):
             narrow = (
                 row if digits == _FEWER else [cell.replace("stable speed", "stable\nspeed") for cell in row]

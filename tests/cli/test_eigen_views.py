@@ -19,6 +19,7 @@ from bikestab.plot.motion import draw_motion
 from bikestab.plot.shapes import draw_shapes
 from bikestab.variants import parameter_of
 
+MASSES = "mB=" + ",".join(str(60 + i) for i in range(25))
 BENCHMARK = ("--bicycle", "meijaard2007")
 BIKE = bs.Bicycle.preset("meijaard2007")
 
@@ -244,12 +245,17 @@ def test_mistakes(bikestab, args, words):
         (["--over", "delta=0:5:3", "--at", "4", "--delta", "2"], "--delta fixes delta, which varies"),
         (["--over", "mB=60:90:3", "--at", "4", "--set", "mB=70"], "--set fixes mB, which varies"),
         (["--bicycle", "kooijman2011", "--shapes"], "kooijman2011 has no stable interval with two ends"),
+        (
+            ["--set", MASSES, "--over", "delta=0:5:3", "--at", "4", "-o", "d.png", "--csv", "d.csv"],
+            "25 curves in one picture cannot be told apart",
+        ),
     ],
 )
 def test_options_that_say_nothing_are_refused(bikestab, args, words):
     code, out, err = bikestab("eigen", "--bicycle", "meijaard2007", *args)
     assert (code, out) == (2, "")
     assert words in err
+    assert not Path("d.csv").exists()
 
 
 def test_the_heading_is_silent_of_a_damping_that_varies(bikestab):

@@ -107,3 +107,11 @@ def test_a_picture_has_more_values_than_the_table(bikestab, monkeypatch, varied)
     assert (code, len(json.loads(out)["results"])) == (0, int(varied[1][-1]))
     assert len(drawn) == 1
     assert drawn[0] >= 201
+
+
+def test_rows_tell_all_values_apart(bikestab):
+    for command in (("vrange",), ("eigen", "--at", "5")):
+        code, out, _ = bikestab(*command, *BENCHMARK, "--over", "delta=1:1.00000002:3")
+        first = [line.split()[0] for line in out.splitlines() if line.split()]
+        assert code == 0
+        assert [word for word in first if word[0] == "1"] == ["1", "1.00000001", "1.00000002"]
