@@ -24,9 +24,8 @@ from bikestab.variants import Parameter
 @own_settings()
 def draw_against(name: str, found: Against, V: float, parameter: Parameter) -> Figure:
     """A machine by name, at a speed [m/s], and what varies. Head angles are in degrees."""
-    scale, label = 1.0, label_of(parameter)
-    if found.name == "head_angle":
-        scale, label = math.degrees(1), "head angle [°]"
+    scale = math.degrees(1) if found.name == "head_angle" else 1.0
+    label = label_of(parameter)
     figure = Figure(figsize=(5.6, 4.4), layout="constrained")
     ax = figure.add_subplot()
     for curve in _joined(found.curves):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Collection
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
@@ -18,7 +20,7 @@ from bikestab.variants import Parameter
 
 LABELS = {
     "lam": "steering-axis tilt λ [rad]", "sigma": "trail / wheelbase σ", "V": "speed V [m/s]",
-    "head_angle": "head angle [rad]", "trail": "trail [m]", "offset": "fork offset b [m]",
+    "head_angle": "head angle [°]", "trail": "trail [m]", "offset": "fork offset b [m]",
 }  # fmt: skip
 _SHORTER = (
     (" of the rear part with rider", " of the rear part"), (" ahead of the rear contact", ""),
@@ -29,6 +31,7 @@ _SHORTER = (
 SYMBOLS = {"lam": "λ", "sigma": "σ", "V": "V"}
 _STEPS = [1, 2, 2.5, 5, 10]
 _TICKS = 6  # spaces between the numbers below an axis, at most
+_UP = 9  # the same beside one that goes up
 _LONG = 32  # letters of a parameter's meaning, with which it fits beside an axis
 _WHEELBASES = {"w", "c"}  # with which a trail is no fixed multiple of σ
 HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
@@ -51,6 +54,22 @@ def labels_of(family: Family) -> dict[str, str]:
     return {"V": LABELS["V"], **{p.name: label_of(p) for p in family.parameters}}
 
 
+class _Degrees(MaxNLocator):
+    """Round numbers of degrees on an axis in rad."""
+
+    def tick_values(self, vmin: float, vmax: float) -> Any:
+        return np.radians(super().tick_values(math.degrees(vmin), math.degrees(vmax)))
+
+
+def place_ticks(axis: Axis, name: str, most: int = _TICKS, **how: Any) -> None:
+    """Round numbers beside an axis of a parameter or V, in the unit of its label: a head angle's degrees."""
+    if name != "head_angle":
+        axis.set_major_locator(MaxNLocator(most, **how))
+        return
+    axis.set_major_locator(_Degrees(most, **how))
+    axis.set_major_formatter(lambda angle, _: f"{math.degrees(angle):.10g}".replace("-", "−"))
+
+
 def label_family(ax: Axes, x: str, y: str, family: Family, *, one_wheelbase: bool = True) -> None:
     """Labels for two of a family's parameters and V; of tilt and trail those of ``label_axes``.
 
@@ -60,7 +79,9 @@ def label_family(ax: Axes, x: str, y: str, family: Family, *, one_wheelbase: boo
         label_axes(ax, x, y, family.bicycle.c if one_wheelbase else None)
         return
     labels = labels_of(family)
-    ax.xaxis.set_major_locator(MaxNLocator(_TICKS, steps=_STEPS))
+    place_ticks(ax.xaxis, x, steps=_STEPS)
+    if y == "head_angle":
+        place_ticks(ax.yaxis, y, _UP, steps=_STEPS)
     ax.set_xlabel(labels[x])
     ax.set_ylabel(labels[y])
 

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from bikestab.comparison import Box, Region, Side
 from bikestab.family import Family
 from bikestab.model import exact_table
-from bikestab.plot.axes import HALO, label_family, labels_of
+from bikestab.plot.axes import HALO, label_family, labels_of, place_ticks
 from bikestab.plot.growth import growth_axes
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.placing import Room, beside
@@ -107,6 +107,9 @@ def _label(ax: Axes, both: Sequence[Side], box: Box, *, alone: bool) -> None:
         label_family(ax, *box.names, family, one_wheelbase=both[0].bicycle.c == both[1].bicycle.c)
         return
     labels = labels_of(family)
+    for axis, name in zip((ax.xaxis, ax.yaxis), box.names, strict=True):
+        if name == "head_angle":
+            place_ticks(axis, name)
     ax.set_xlabel(labels[box.names[0]])
     ax.set_ylabel(labels[box.names[1]])
 

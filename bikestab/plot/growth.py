@@ -13,7 +13,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from bikestab.against import Against
 from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, exact_table
-from bikestab.plot.axes import LABELS, ticks_inside
+from bikestab.plot.axes import LABELS, place_ticks, ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import Curve, label_curves, lines_for
@@ -66,6 +66,8 @@ def draw_growth_against(machines: Sequence[tuple[str, Against]], label: str, nam
     named = [(own if at else f"{own} at {found.V:.4g} m/s", found) for own, found in machines]
     draw_rates(ax, [_against(*each) for each in named], float(values.min()), float(values.max()))
     ax.set_xlabel(label, parse_math=False)
+    if machines[0][1].name == "head_angle":
+        place_ticks(ax.xaxis, "head_angle")
     what = f"largest real part of the eigenvalues{at}; {_THICK}"
     set_title(ax, f"{short(name)}: {what}" if name else f"{what[0].upper()}{what[1:]}")
     return figure

@@ -22,7 +22,7 @@ from bikestab.family import Family
 from bikestab.fields import AXES
 from bikestab.model import Floats
 from bikestab.plot.arranged import arrange_region
-from bikestab.plot.axes import LABELS, labels_of, remarks
+from bikestab.plot.axes import LABELS, labels_of, place_ticks, remarks
 from bikestab.plot.colours import OWN
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import STRAIGHT, entry, legend_below, straight_designs
@@ -38,6 +38,7 @@ SHEETS = {WEAVE: ("#0072b2", "weave", -1, r"\\\\"), CAPSIZE: ("#e69f00", "capsiz
 _CELLS = 48  # of the mesh, per axis
 _LONG = 28  # letters of a label, with which it fits beside an axis
 _LIGHT = np.array([-0.45, -0.6, 0.66])  # direction to the light, in units of the box
+_SPACES = 5  # between the numbers beside an axis, at most
 _SIZE = 9  # of words beside axes
 _SCALE = (1.0, 1.0, 0.85)  # of the drawn box
 _NAMES = tuple(LABELS[name] for name in AXES)
@@ -71,6 +72,9 @@ def draw_region(subject: Subject) -> Figure:
         ax.plot(lam, sigma, box[2][0], zorder=0, **STRAIGHT)  # on the floor, under the surface
     short_ones = {p.name: f"{p.symbol} [{p.unit}]" for p in family.parameters if len(labels[p.name]) > _LONG}
     handles = draw_mesh(ax, mesh, box, [{**labels, **short_ones}[name] for name in subject.axes])
+    for axis, name in zip((ax.xaxis, ax.yaxis), subject.axes[:2], strict=True):
+        if name == "head_angle":
+            place_ticks(axis, name, _SPACES, prune="lower" if axis is ax.yaxis else None)
     if straight and not np.isnan(sigma).all():
         handles.append(entry("fork offset b = 0", **STRAIGHT))
     handles += _own_design(ax, family, box)
@@ -97,7 +101,7 @@ def draw_mesh(
     for axis, prune in ((ax.xaxis, None), (ax.yaxis, "lower"), (ax.zaxis, None)):
         axis.label.set_fontsize(_SIZE)
         axis.set_tick_params(labelsize=_SIZE, pad=0)
-        axis.set_major_locator(MaxNLocator(5, prune=prune))  # the first labels of x and y would meet
+        axis.set_major_locator(MaxNLocator(_SPACES, prune=prune))  # the first labels of x and y would meet
     ax.zaxis.set_rotate_label(False)  # which else is read downwards
     ax.zaxis.label.set_rotation(90)
     ax.view_init(elev=25, azim=-125)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal
 
 import numpy as np
@@ -168,6 +169,8 @@ def _decorate(ax: Axes, subject: Subject, section: Section) -> None:
     family, bicycle, value = section.family, section.family.bicycle, section.value
     label_family(ax, *section.axes, family)
     where = {p.name: f"{p.symbol} = {value:.6g} {p.unit}".removesuffix(" 1") for p in family.parameters}
+    if "head_angle" in where:
+        where["head_angle"] = f"head angle {math.degrees(value):.6g}°"
     where["V"] = f"V = {value:.6g} m/s"
     if "lam" in where:
         where["lam"] += f" (head angle {head_angle(value):.2f}°)"

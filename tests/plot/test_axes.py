@@ -5,7 +5,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from bikestab.bicycle import Bicycle
-from bikestab.plot.axes import label_of
+from bikestab.family import Family
+from bikestab.plot.axes import label_family, label_of
 from bikestab.plot.ticks import plain_numbers
 from bikestab.variants import FRONT, parameter_of
 
@@ -18,7 +19,7 @@ def test_every_parameter_has_short_words_of_its_own(name):
     assert len({*labels.values()}) == len(labels)
     for key, label in labels.items():
         assert len(label) < 45
-        unit = parameter_of(bicycle, key).unit
+        unit = "°" if key == "head_angle" else parameter_of(bicycle, key).unit
         assert label.endswith(f"[{unit}]") == (unit != "1")
         assert label.split().count(key) <= 1
 
@@ -26,7 +27,7 @@ def test_every_parameter_has_short_words_of_its_own(name):
 def test_words_of_some():
     bicycle = Bicycle.preset("meijaard2007")
     words = {
-        "mB": "body mass mB [kg]", "zH": "fork centre of mass zH [m]", "head_angle": "head angle [rad]",
+        "mB": "body mass mB [kg]", "zH": "fork centre of mass zH [m]", "head_angle": "head angle [°]",
         "delta": "steering damping δ [kg m²/s]", "sigma": "trail / wheelbase σ",
     }  # fmt: skip
     assert {key: label_of(parameter_of(bicycle, key)) for key in words} == words
@@ -60,3 +61,22 @@ def test_numbers_say_all(ends, label, shown, value):
     told = [value(ax.xaxis.get_major_formatter()(tick).replace("−", "-")) for tick in ticks]
     assert np.ptp(ticks) > 0.5 * (ends[1] - ends[0])
     assert told == pytest.approx(ticks, rel=0, abs=1e-4 * (ends[1] - ends[0]))
+
+
+@pytest.mark.parametrize("ends", [(60, 75), (71.5, 72.5), (45, 90), (70, 70.05)])
+@pytest.mark.parametrize("way", ["x", "y"])
+def test_head_angles_are_told_in_round_degrees(way, ends):
+    """What is drawn is in rad: the numbers stand where their angles are."""
+    family = Family(Bicycle.preset("meijaard2007"), "refined", "trail", "head_angle")
+    ax = Figure().add_subplot()
+    ax.set(**{f"{way}lim": np.radians(ends)})
+    label_family(ax, *(("head_angle", "trail") if way == "x" else ("trail", "head_angle")), family)
+    plain_numbers(ax.figure)
+    ax.figure.draw_without_rendering()
+    axis = getattr(ax, f"{way}axis")
+    ticks = [tick for tick in axis.get_majorticklocs() if np.radians(ends[0]) <= tick <= np.radians(ends[1])]
+    told = [float(axis.get_major_formatter()(tick)) for tick in ticks]
+    assert len(told) >= 3
+    assert told == pytest.approx(np.degrees(ticks), rel=1e-9)
+    assert all(len(f"{angle:g}") <= 5 for angle in told)
+    assert axis.get_label_text() == "head angle [°]"
