@@ -22,7 +22,7 @@ from bikestab.formats.kinds import expected
 from bikestab.presets import preset_names
 from bikestab.rider import flattened
 from bikestab.texts import is_there
-from bikestab.units import shown
+from bikestab.units import DAMPING, quantity, shown
 
 Form = TypeVar("Form", bound=Strict)
 _Key = tuple[str | int, ...]
@@ -47,6 +47,22 @@ def parse_config(document: yamltext.Document, overrides: Sequence[str] = ()) -> 
         places[key] = f"--set {override}"
     notes = tuple(bare_in_lists(document.data))
     return validated(document, places, ScanConfig).with_text(document.text, notes)
+
+
+def bicycle_in(text: str, folder: str | Path) -> Bicycle:
+    """The bicycle that a config's text gives, with its damping; a path starts from ``folder``.
+
+    InputError for a text that gives none, and a path at which no regular file is.
+    """
+    data = _plain(yamltext.parse(text, "config").data)
+    named = data.get("bicycle")
+    if isinstance(named, str) and named not in preset_names() and not Path(folder, named).is_file():
+        raise InputError("there is no such file", place=named)
+    bicycle = _load_bicycle(named, folder)
+    if not isinstance(bicycle, Bicycle):
+        raise InputError("is no bicycle", key=("bicycle",))
+    delta = data.get("delta")
+    return bicycle if delta is None else bicycle.with_delta(quantity(delta, DAMPING))
 
 
 def _check_once(overrides: Sequence[str]) -> None:

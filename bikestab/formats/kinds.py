@@ -11,7 +11,10 @@ from bikestab.errors import InputError
 from bikestab.texts import is_file
 
 KINDS = {  # what it is called, and what takes it
-    "volume": ("a volume", "bikestab info, slice and export take it"),
+    "volume": (
+        "a volume",
+        "bikestab convert writes its bicycle; info, slice, export, report, compare, vrange --bicycle take it",
+    ),
     "picture": ("a picture", "no command reads pictures"),
     "config": ("a scan's config", "bikestab scan and check take it"),
     "bicycle": ("a bicycle's file", "bikestab vrange --bicycle takes it, and 'bicycle:' in a config"),

@@ -5,10 +5,9 @@ Coefficients go over as two doubles each, nearest to the exact fractions.
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any
 
 from bikestab.algebra import Polynomial
 from bikestab.bicycle import Bicycle
@@ -19,28 +18,22 @@ from bikestab.letters import Model
 from bikestab.presets import preset_names
 
 Formula = list[list[float]]
+_ANY = "dikarev1981"  # in the notation of two parts, without feedback: each of its numbers is set
+_DESIGN = ("lam", "sigma")
 _SPEEDS = 4  # powers of V in the table of a machine without feedback
 
 
-class Kept(NamedTuple):
-    """Where a machine is kept: a volume's path and the bicycle that it tells, and what its sweep changes."""
-
-    path: str
-    first: Bicycle
-    swept: Mapping[str, float]
-
-
-def machine_record(bicycle: Bicycle, model: Model, kept: Kept) -> dict[str, Any]:
+def machine_record(bicycle: Bicycle, model: Model, swept: Mapping[str, float]) -> dict[str, Any]:
     """A machine as page/table.mjs takes it: formulas are lists of (powers of sin λ, cos λ, σ, value, rest).
 
-    Where gains are in proportion to 1/V, the whole table is times V.
+    ``swept`` is what a sweep changes. Where gains are in proportion to 1/V, the whole table is times V.
     """
     table = table_formulas(bicycle, model=model).entries
     lowest = min(j for _, j in table)
     return {
         "name": bicycle.name,
         "source": bicycle.source,
-        "command": command_options(bicycle, model, kept),
+        "command": command_options(bicycle, model, swept),
         "table": [[_formula(table.get((k, j))) for j in range(lowest, _SPEEDS)] for k in range(5)],
         "motion": _motion(bicycle, model),
         "own": None if bicycle.lam is None or bicycle.sigma is None else [bicycle.lam, bicycle.sigma],
@@ -56,19 +49,19 @@ def machine_record(bicycle: Bicycle, model: Model, kept: Kept) -> dict[str, Any]
     }
 
 
-def command_options(bicycle: Bicycle, model: Model, kept: Kept) -> str:
-    """The options of the command line that mean this machine, as a shell takes them.
+def command_options(bicycle: Bicycle, model: Model, swept: Mapping[str, float]) -> str:
+    """The options of the command line that mean this machine for whoever has the page alone.
 
-    They name a preset where it is one, with what a sweep gives it, or else the volume that has it.
+    They name a preset where it is one, with what a sweep gives it, or else each number of its two parts.
     """
-    options = []
-    named = _preset(bicycle, kept.swept)
+    named = _preset(bicycle, swept)
+    options = [f"--bicycle {bicycle.name if named else _ANY}"]
     if named is not None:
-        options.append(f"--bicycle {bicycle.name}")
-        options += [f"--set {name}={value!r}" for name, value in kept.swept.items() if name != "delta"]
+        values = {name: value for name, value in swept.items() if name != "delta"}
+        values |= _changed(named, bicycle)
     else:
-        options.append(f"--bicycle {shlex.quote(kept.path)}")
-    for name, value in _changed(named or kept.first, bicycle).items():
+        values = {name: x for name, x in bicycle.numbers().items() if x is not None and name not in _DESIGN}
+    for name, value in values.items():
         options.append(f"--delta {value!r}" if name == "delta" else f"--set {name}={value!r}")
     if model != "refined":
         options.append(f"--model {model}")
@@ -93,7 +86,7 @@ def _preset(bicycle: Bicycle, swept: Mapping[str, float]) -> Bicycle | None:
 def _changed(one: Bicycle, other: Bicycle) -> dict[str, float]:
     """What must be set for the one to be the other, but its design; what is no parameter is a gain of 0."""
     before, then = one.numbers(), other.numbers()
-    names = [name for name in {**before, **then} if name not in ("lam", "sigma")]
+    names = [name for name in {**before, **then} if name not in _DESIGN]
     return {name: then.get(name) or 0.0 for name in names if then.get(name) != before.get(name)}
 
 

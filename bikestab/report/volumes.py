@@ -14,7 +14,7 @@ from bikestab.fields import AXES
 from bikestab.gains import GAINS
 from bikestab.geometry import GIVEN
 from bikestab.notation import MEIJAARD
-from bikestab.report.machines import Kept, machine_record
+from bikestab.report.machines import machine_record
 from bikestab.report.surfaces import surfaces
 from bikestab.rider import RIDER
 from bikestab.volume import Volume, check_ranges
@@ -32,9 +32,9 @@ def volume_records(volumes: Sequence[Volume], progress: Progress) -> list[dict[s
     """
     records = [_volume(volume) for volume in volumes]
     every = [
-        (family, kept, record["box"])
+        (family, swept, record["box"])
         for volume, record in zip(volumes, records, strict=True)
-        for family, kept in families(volume)
+        for family, swept in families(volume)
     ]
     with meanwhile(lambda: [_machine(*one) for one in every[1::2]]) as others:
         machines: list[Any] = [None] * len(every)
@@ -84,16 +84,16 @@ def _swept(volume: Volume) -> list[tuple[float, ...]]:
     return list(product(*(values.tolist() for values in volume.swept.values())))
 
 
-def families(volume: Volume) -> Iterator[tuple[Family, Kept]]:
-    """The machines of a volume, each with where it is kept."""
+def families(volume: Volume) -> Iterator[tuple[Family, dict[str, float]]]:
+    """The machines of a volume, each with what the sweep changes."""
     for values in _swept(volume):
         swept = dict(zip(volume.swept, values, strict=True))
-        yield volume.at(swept).family, Kept(str(volume.path), volume.bicycle, swept)
+        yield volume.at(swept).family, swept
 
 
-def _machine(family: Family, kept: Kept, box: Box) -> dict[str, Any]:
+def _machine(family: Family, swept: dict[str, float], box: Box) -> dict[str, Any]:
     lam, sigma, V = ((low, high) for low, high in box.values())
-    return machine_record(family.bicycle, family.model, kept) | surfaces(family, lam, sigma, V)
+    return machine_record(family.bicycle, family.model, swept) | surfaces(family, lam, sigma, V)
 
 
 def _described(name: str) -> dict[str, str]:

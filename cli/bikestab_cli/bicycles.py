@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 from bikestab_cli.chosen import Given, design_chosen, design_options
-from bikestab_cli.options import BICYCLE, PICTURE, check_files, json_option
+from bikestab_cli.options import BICYCLE, PICTURE, bicycle_named, check_files, json_option
 from bikestab_cli.output import WIDTH, print_json, tell_file
 
 
@@ -46,7 +46,7 @@ def command(name: str | None, output: str | None, given: Given, as_json: bool) -
         option = f"--{next(iter(given)).replace('_', '-')}"
         raise click.UsageError(f"{option} is for a picture: give -o FILE", click.get_current_context())
     if name and name not in preset_names():
-        Bicycle.load(name)  # what is no bicycle is told as that
+        bicycle_named(name)  # what is no bicycle is told as that
         hint = "-o draws it, and 'bikestab convert' prints it"
         raise InputError("is a file, not a bicycle that comes with bikestab", place=name, hint=hint)
     chosen = [Bicycle.preset(n) for n in ([name] if name else preset_names())]
@@ -73,13 +73,12 @@ def command(name: str | None, output: str | None, given: Given, as_json: bool) -
 
 
 def _draw(name: str | None, output: str, given: Given) -> None:
-    from bikestab.bicycle import Bicycle
     from bikestab.plot.files import save
     from bikestab.plot.side import draw_side
 
     if name is None:
         raise click.UsageError("a picture is of one bicycle: give its NAME", click.get_current_context())
     check_files(output)
-    bicycle = Bicycle.load(name)
+    bicycle = bicycle_named(name)
     save(draw_side(bicycle, *design_chosen(bicycle, given)), Path(output))
     tell_file(output)

@@ -41,15 +41,16 @@ def completed(incomplete: str, *, bicycles: bool) -> list[CompletionItem]:
 
 def parameters(ctx: click.Context, _: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Names of parameters: of the bicycle that was typed, or of both notations."""
+    from bikestab_cli.options import bicycle_named
     from click.shell_completion import CompletionItem
 
-    from bikestab.bicycle import PAPER, Bicycle
+    from bikestab.bicycle import PAPER
     from bikestab.notation import MEIJAARD
 
     names: Collection[str] = {**MEIJAARD, **PAPER}
     if typed := ctx.params.get("bicycle_name"):
         with suppress(Exception):  # a file that is no bicycle: the command will say so
-            names = Bicycle.load(typed if isinstance(typed, str) else typed[-1]).notation
+            names = bicycle_named(typed if isinstance(typed, str) else typed[-1]).notation
     fitting = (name for name in {*names, "head_angle", "trail", "offset"} if name.startswith(incomplete))
     return [CompletionItem(f"{name}=") for name in sorted(fitting, key=str.casefold)]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
-from bikestab_cli.options import BICYCLE, FILE, NAME, warn
+from bikestab_cli.options import BICYCLE, FILE, NAME, bicycle_named, warn
 
 
 @click.command("convert")
@@ -40,12 +40,11 @@ def command(bicycle_name: str, output: str | None, rider: str | None, notation: 
 
     There is no way back from two parts to four bodies: they do not tell what of a part is its wheel.
     """
-    from bikestab.bicycle import Bicycle
     from bikestab.errors import InputError
     from bikestab.files import written
     from bikestab.formats.writing import written as text_of
 
-    bicycle = Bicycle.load(bicycle_name)
+    bicycle = bicycle_named(bicycle_name)
     if rider:
         from bikestab.ridden import with_rider
 

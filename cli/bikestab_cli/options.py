@@ -106,9 +106,8 @@ sd_option = _of_parameters(
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 
 
-def load_bicycle(name: str, delta: float | None) -> Bicycle:
-    """The bicycle that --bicycle and --delta name; its warnings go to stderr."""
-    from bikestab.bicycle import Bicycle
+def load_bicycle(name: str, delta: float | None, *, warned: bool = True) -> Bicycle:
+    """The bicycle that --bicycle and --delta name; its warnings go to stderr, if they shall."""
     from bikestab.presets import preset_names
 
     if delta is not None and delta < 0:
@@ -116,25 +115,26 @@ def load_bicycle(name: str, delta: float | None) -> Bicycle:
     if "," in name and all(part.strip() in preset_names() for part in name.split(",")):
         problem = f"{name!r} is a list; give --bicycle once for each, where a command takes several"
         raise click.BadParameter(problem, param_hint="--bicycle")
-    bicycle = _of_volume(name) or Bicycle.load(name)
+    bicycle = bicycle_named(name)
     with told_as_options():
         bicycle = with_its_rider(bicycle)
         bicycle = bicycle.with_delta(None if delta is None else delta + 0.0)  # not -0
-    warn(bicycle)
+    if warned:
+        warn(bicycle)
     return bicycle
 
 
-def _of_volume(name: str) -> Bicycle | None:
-    """The machine of a volume, or the first of its sweep; None for what is no volume."""
+def bicycle_named(name: str) -> Bicycle:
+    """A preset, the bicycle in a file, or that which a volume was computed of."""
+    from bikestab.bicycle import Bicycle
     from bikestab.formats.kinds import kind_of
     from bikestab.presets import preset_names
 
     if name in preset_names() or kind_of(name) != "volume":
-        return None
-    from bikestab.volume import Volume
+        return Bicycle.load(name)
+    from bikestab.computed import computed_bicycle
 
-    with Volume(name) as volume:
-        return volume.bicycle
+    return computed_bicycle(name)
 
 
 def warn(bicycle: Bicycle) -> None:

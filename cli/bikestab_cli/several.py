@@ -132,7 +132,7 @@ def machines_chosen(
     if twice := [name for i, name in enumerate(names) if name in names[:i]]:
         raise click.BadParameter(f"{twice[0]} is given twice; give it once", param_hint="--bicycle")
     machines = []
-    for own in _told_apart(names, [load_bicycle(name, delta) for name in names]):
+    for own in _told_apart(names, [load_bicycle(name, delta, warned=False) for name in names]):
         _check_once(own, changes, given if delta is None else [*given, "delta"])
         tell_which(own, changes)
         for combination in combinations:
@@ -145,8 +145,7 @@ def machines_chosen(
                     problem = f"{own.name} has no rider apart; its file needs one under rider:"
                     problem += " (see 'bikestab convert --rider')"
                 raise click.BadParameter(problem, param_hint="--set") from None
-            if values:
-                warn(bicycle)
+            warn(bicycle)
             machines.append(Chosen(bicycle, values, digits_of(changes)))
     return machines
 
