@@ -32,7 +32,7 @@ def command(path: str, name: str, uncertain: bool, force: bool) -> None:
     Examples:
       bikestab init
       bikestab init mine.yaml --bicycle meijaard2007
-      bikestab init study.yaml --bicycle measured.txt --uncertain
+      bikestab init study.yaml --bicycle examples/measured.txt --uncertain
     """
     from bikestab.config.template import starting_config
     from bikestab.errors import InputError

@@ -11,7 +11,6 @@ import pytest
 from bikestab_cli.main import COMMANDS, cli, main
 
 from bikestab.bicycle import Bicycle
-from tests.formats.test_kinds import RIDER
 
 ROOT = Path(__file__).parents[2]
 
@@ -48,15 +47,9 @@ PAGES = [page for page in (ROOT / "README.md", *ROOT.glob("docs/*.md")) if from_
 
 @pytest.fixture
 def run(tmp_path, monkeypatch, capsys):
-    """Run lines one after the other in a folder with the configs; the first that fails is told.
-
-    The reader's own files are there too: a measured bicycle and a rider.
-    """
+    """Run lines one after the other beside the project's configs and examples; the first that fails is told."""
     shutil.copytree(ROOT / "configs", tmp_path / "configs")
-    given = Bicycle.preset("meijaard2007").given
-    lines = [f"{key} = {value} +/- {abs(value) / 200}\n" for key, value in given.items()]
-    (tmp_path / "measured.txt").write_text("".join(lines), "utf-8")
-    (tmp_path / "rider.txt").write_text(RIDER, "utf-8")
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
     monkeypatch.chdir(tmp_path)
 
     def run_lines(lines):
@@ -77,6 +70,14 @@ def run(tmp_path, monkeypatch, capsys):
         return "".join(printed)
 
     return run_lines
+
+
+def test_the_measured_example_is_what_it_says():
+    """The benchmark bicycle, each deviation half a per cent."""
+    measured, benchmark = Bicycle.load(str(ROOT / "examples/measured.txt")), Bicycle.preset("meijaard2007")
+    assert measured.given == benchmark.given
+    half = {name: abs(value) / 200 for name, value in benchmark.given.items()}
+    assert measured.deviations == pytest.approx(half, rel=1e-5)
 
 
 def test_there_are_examples_everywhere():
