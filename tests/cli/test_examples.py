@@ -47,7 +47,7 @@ PAGES = [page for page in (ROOT / "README.md", *ROOT.glob("docs/*.md")) if from_
 
 @pytest.fixture
 def run(tmp_path, monkeypatch, capsys):
-    """Run lines one after the other beside the project's configs and examples; the first that fails is told."""
+    """Run lines one after the other, in a folder with the configs and the examples; what fails is told."""
     shutil.copytree(ROOT / "configs", tmp_path / "configs")
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     monkeypatch.chdir(tmp_path)
