@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import re
 from pathlib import Path
@@ -10,7 +11,9 @@ from pathlib import Path
 from bikestab.bicycle import Bicycle
 from bikestab.config.meaning import OUT_OF_EQUATIONS
 from bikestab.errors import InputError
+from bikestab.model import exact_table
 from bikestab.presets import preset_names
+from bikestab.speeds import intervals_of
 
 CORRELATED = "# correlated as in the bicycle's file; correlation: {[mB, xB]: 0.5} would say otherwise"
 _NO_ENSEMBLE = """\
@@ -41,10 +44,26 @@ def starting_config(bicycle_name: str, file: str | Path, *, uncertain: bool = Fa
         "OUTPUT": json.dumps(f"out/{Path(file).stem}", ensure_ascii=False),
         "LAM": f"{lam:.6g}",
         "SIGMA": f"{sigma:.6g}",
+        "NAME": " ".join(bicycle.name.split()),  # in a remark of one line
+        "EXPECT": _expect(bicycle, lam, sigma),
         "ENSEMBLE": _ensemble(bicycle) if uncertain else _NO_ENSEMBLE,
     }
     text = (Path(__file__).parent / "template.yaml").read_text("utf-8")
     return re.sub("@([A-Z_]+)@", lambda match: values[match[1]], text)
+
+
+def _expect(bicycle: Bicycle, lam: float, sigma: float) -> str:
+    """Remarks that are entries of ``expect`` once uncommented: a design's exact speeds, in six digits."""
+    own = bicycle.lam is not None and bicycle.sigma is not None
+    design = "" if own else f"lam: {lam!r}, sigma: {sigma!r}, "
+    found = intervals_of(exact_table(bicycle, lam, sigma))
+    if not found.number:
+        return f"#   - {{{design}stable: never}}"
+    pairs = zip(found.V1[: found.number].tolist(), found.V2[: found.number].tolist(), strict=True)
+    ends = [(f"{V1:.6g}", f"{V2:.6g}" if math.isfinite(V2) else "unbounded") for V1, V2 in pairs]
+    within = "0.01" if "0" in dict(ends) else "1%"  # per cent of standing still are none
+    lines = [f"#   - {{{design}V1: {V1}, V2: {V2}, within: {within}}}" for V1, V2 in ends]
+    return "\n".join([f"{lines[0]}   # [m/s]; without lam and sigma of its own design", *lines[1:]])
 
 
 def _from_its_folder(bicycle_name: str, file: str | Path) -> str:

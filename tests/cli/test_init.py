@@ -8,7 +8,7 @@ import pytest
 
 from bikestab.bicycle import Bicycle
 from bikestab.config.file import load_config
-from bikestab.presets import preset_text
+from bikestab.presets import preset_names, preset_text
 
 
 @pytest.mark.parametrize(
@@ -32,6 +32,22 @@ def test_init_names_the_same_bicycle_from_everywhere(bikestab, monkeypatch, give
     monkeypatch.chdir(here)
     if given != "./sharp1971":  # a path from the config's folder, never from the current one
         assert load_config(moved).machine.m1 == 95
+
+
+@pytest.mark.parametrize("name", preset_names())
+def test_what_a_config_expects_holds_once_uncommented(bikestab, name):
+    """Of the chosen bicycle's own design where it has one; and no more than it is."""
+    assert bikestab("init", "mine.yaml", "--bicycle", name)[0] == 0
+    text = Path("mine.yaml").read_text("utf-8")
+    start = text.index("# expect:")
+    Path("mine.yaml").write_text(
+        text[:start] + text[start:].replace("# expect", "expect").replace("#   -", "  -"), "utf-8"
+    )
+    code, out, err = bikestab("check", "mine.yaml")
+    assert (code, err, out.count("holds")) == (0, "", 1)
+    assert f"this is what {name} has now" in text
+    Path("mine.yaml").write_text(Path("mine.yaml").read_text("utf-8").replace("V1: ", "V1: 1"), "utf-8")
+    assert bikestab("check", "mine.yaml")[0] == 1
 
 
 def test_init_with_uncertainties(bikestab):
