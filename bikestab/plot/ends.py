@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 
 from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, ticks_inside
+from bikestab.plot.framed import inside, largest_told, top_of
 from bikestab.plot.headings import in_rows, set_title, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
@@ -27,7 +28,6 @@ AXES = {
 _LOWER, _UPPER, _SIDE = 2.2, 1.2, 0.6  # widths of the lines of V1 and V2, and between them at a run's end
 _ARROW, _SIZE = "$\u2191$", 9  # where there is no upper limit
 _ARROWS, _AWAY = 12, 0.04  # along the axis; above V1, as a share of the axis
-_BEYOND = 1.25  # where what is unbounded ends in the picture, of the largest end
 
 
 @own_settings()
@@ -40,7 +40,7 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "
     """
     lines = lines_for(len(machines))
     ends = [V for _, answers in machines for a in answers for i in a["intervals"] for V in (i["V1"], i["V2"])]
-    top = _BEYOND * max((V for V in ends if V is not None), default=10.0)
+    top = top_of(*_weighted(machines, axis))
     figure = Figure(figsize=(6.2, 4.4 if axis else 1.6 + 0.42 * max(len(machines), 3)), layout="constrained")
     ax = figure.add_subplot()
     ticks_inside(ax)
@@ -54,6 +54,19 @@ def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "
     whose = f"{short(whose)}: stable speeds" if whose else "Stable speeds"
     set_title(ax, whose + ("" if any(V is not None for V in ends) else ": none"))
     return figure
+
+
+def _weighted(machines: Sequence[tuple[str, Answers]], axis: str) -> tuple[list[Any], list[float]]:
+    """All ends, and of how much of the axis each is."""
+    ends, weights = [], []
+    for _, answers in machines:
+        x = np.array([answer[axis] if axis else 0.0 for answer in answers], dtype=float)
+        widths = np.abs(np.gradient(x)) if len(np.unique(x)) > 1 else np.ones(len(x))
+        for answer, width in zip(answers, widths.tolist(), strict=True):
+            for interval in answer["intervals"]:
+                ends += [interval["V1"], interval["V2"]]
+                weights += [width] * 2
+    return ends, weights
 
 
 def _entries(machines: Sequence[tuple[str, Answers]], ends: Sequence[float | None], over: bool) -> list[Any]:
@@ -89,26 +102,27 @@ def _over(
     several, curves = len(machines) > 1, []
     for (name, answers), line in zip(machines, lines, strict=True):
         runs = [_Run(*_drawn(run, axis)) for run in _runs(answers)]
+        range_ = min(values), max(values)
         for x, V1, V2 in runs:
             ax.plot(x, V1, color=line.color, ls=line.ls, lw=_LOWER)
             ax.plot(x, V2, color=line.color, ls=line.ls, lw=_UPPER)
             for k in (0, -1) if several else ():
-                upper = V2[k] if np.isfinite(V2[k]) else top
-                if min(values) < x[k] < max(values):
+                upper = V2[k] if np.isfinite(V2[k]) else max(V1[k], top)
+                if range_[0] < x[k] < range_[1]:
                     ax.plot([x[k]] * 2, [V1[k], upper], color=line.color, ls=line.ls, lw=_SIDE)
             if not several:
-                ax.fill_between(x, V1, np.where(np.isfinite(V2), V2, top), color=line.color, alpha=0.15, lw=0)
+                shaded = np.where(np.isfinite(V2), V2, np.maximum(V1, top))
+                ax.fill_between(x, V1, shaded, color=line.color, alpha=0.15, lw=0)
         if several:
-            _mark_open(ax, runs, line, (min(values), max(values)), top)
-            curves += _named(name, runs, line, max(values))
+            _mark_open(ax, runs, line, range_, top)
+        curves += _named(name if several else "", runs, line, range_, top)
         for answer in answers:
             for speeds, at in _nine_tenths(answer, answer[axis], 0.0, top):
                 ax.plot(at, speeds, "_-", color=line.color, lw=1, ms=7, clip_on=False)
     ax.set_xlim(min(values), max(values))
     ax.set_ylim(0, top)
     ax.set_ylabel(LABELS["V"])
-    if several:  # else its name is the title's
-        label_curves(ax, curves)
+    label_curves(ax, curves)
 
 
 class _Run(NamedTuple):
@@ -125,19 +139,33 @@ def _drawn(run: Run, axis: str) -> tuple[Floats, Floats, Floats]:
     return np.array([answer[axis] for answer, _ in run]), V1, V2
 
 
-def _named(name: str, runs: Sequence[_Run], line: Line, last: float) -> list[Curve]:
-    """Both ends of all runs as curves with gaps between these, and a name for each."""
+def _named(
+    name: str, runs: Sequence[_Run], line: Line, range_: tuple[float, float], top: float
+) -> list[Curve]:
+    """Both ends of all runs as curves with gaps between these, and a name for each.
+
+    Of a machine without a ``name``, which the title has, those that leave the axis.
+    """
     if not runs:
-        return [Curve(f"{name}: never", np.array([last]), np.zeros(1), line.color)]
-    x = np.concatenate([[*run.x, run.x[-1]] for run in runs])
-    ends = [
-        np.concatenate([[*V, np.nan] for V in each]) for each in zip(*[run[1:] for run in runs], strict=True)
-    ]
-    return [
-        Curve(name, x, V, line.color, what)
-        for what, V in zip(("V₁", "V₂"), ends, strict=True)
-        if np.isfinite(V).any()
-    ]
+        return [Curve(f"{name}: never", np.array([range_[1]]), np.zeros(1), line.color)] if name else []
+    curves = []
+    for end, what in ((1, "V₁"), (2, "V₂")):
+        parts = [inside(run.x, run[end], top) for run in runs]
+        x, V = (np.concatenate([[*part[k], np.nan] for part in parts]) for k in (0, 1))
+        largest = max(
+            (v for run in runs if np.isfinite(v := largest_told(run.x, run[end], top, range_))), default=None
+        )
+        beyond = "" if largest is None else f"↑ {largest:.4g} m/s"
+        words = f"{name} {beyond}".strip()
+        if not words or not any(np.isfinite(run[end]).any() for run in runs):
+            continue
+        if np.isfinite(V).any():
+            there = np.isfinite(V) | np.isfinite(x)
+            curves.append(Curve(words, x[there], V[there], line.color, what))
+        else:  # all of it is above the axis
+            middle = np.array([0.5 * (range_[0] + range_[1])])
+            curves.append(Curve(words, middle, np.array([top]), line.color, what))
+    return curves
 
 
 def _mark_open(ax: Axes, runs: Sequence[_Run], line: Line, ends: tuple[float, float], top: float) -> None:
@@ -146,7 +174,9 @@ def _mark_open(ax: Axes, runs: Sequence[_Run], line: Line, ends: tuple[float, fl
     for x, V1, V2 in runs:
         open_ = np.isnan(V2)
         at = [v for v in ends[0] + step * (0.5 + np.arange(_ARROWS)) if x[0] <= v <= x[-1]]
-        at = [v for v in at or [0.5 * (x[0] + x[-1])] if open_[np.argmin(np.abs(x - v))]]
+        at = [v for v in at if np.interp(v, x, V1) < (1 - 2 * _AWAY) * top]
+        at = at or x[(1 - 2 * _AWAY) * top > V1][:1].tolist()
+        at = [v for v in at if open_[np.argmin(np.abs(x - v))]]
         y = np.interp(at, x, V1) + _AWAY * top
         ax.plot(at, y, marker=_ARROW, ms=_SIZE, color=line.color, lw=0)
 

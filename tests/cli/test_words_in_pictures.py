@@ -44,6 +44,7 @@ COMMANDS = [
     f"vrange {ALL} --trail 0:15cm:31",
     f"vrange {ALL}",
     "vrange --lam 0:0.3:61 --sigma 0.15",
+    "vrange --bicycle meijaard2007 --bicycle kooijman2011 --over delta=0:8:9",
     "vrange --bicycle meijaard2007 --sd c=10mm --sd lam=1.5deg",
     "vrange --bicycle meijaard2007 --over mB=60:110:11 --over offset=0:60mm:4",
     "design",

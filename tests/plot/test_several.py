@@ -16,7 +16,7 @@ from bikestab.errors import InputError
 from bikestab.plot.ends import draw_ends
 from bikestab.plot.growth import draw_growth, draw_growth_against
 from bikestab.plot.sidelabels import MOST, Curve, label_curves, lines_for, spread
-from bikestab.region.answers import stable_speeds
+from bikestab.region.answers import stable_speeds, stable_speeds_over
 from bikestab.stability import growth_rate
 
 
@@ -102,6 +102,29 @@ def test_arrows_where_there_is_no_upper_limit():
     open_ = [a["sigma"] for a in machines[1][1] if a["intervals"] and a["intervals"][0]["V2"] is None]
     assert [len(line.get_xdata()) > 0 for line in arrows] == [False, True]
     assert all(min(open_) <= x <= max(open_) for x in arrows[1].get_xdata())
+
+
+def test_ends_far_above_the_others_leave_the_axis_and_are_told():
+    """With much damping one machine's weave speed is beyond 1000 m/s, the other's below 6 m/s."""
+    damping = {"delta": np.linspace(0, 8, 17)}
+    machines = [
+        (name, [{**point, **answer} for point, answer in stable_speeds_over(bike, damping)])
+        for name, bike, *_ in presets("meijaard2007", "kooijman2011")
+    ]
+    figure = draw_ends(machines, "delta", "damping")
+    assert 6.1 < figure.axes[0].get_ylim()[1] < 40
+    assert [name for name in names_in(figure) if "↑" in name] == ["V₁: kooijman2011 ↑ 1254 m/s"]
+    (alone,) = draw_ends(machines[1:], "delta", "damping").axes
+    assert alone.get_ylim()[1] > 1254
+
+
+def test_what_rises_without_limit_leaves_the_axis():
+    answers = stable_speeds(Bicycle.preset("dikarev1981"), np.linspace(0.048, 0.3, 4001), 0.15, nearest=False)
+    ends = [V for a in answers for i in a["intervals"] for V in (i["V1"], i["V2"]) if V is not None]
+    assert max(ends) > 200
+    figure = draw_ends([("paper", answers)], "lam")
+    assert 8 < figure.axes[0].get_ylim()[1] < 40
+    assert not names_in(figure)
 
 
 def test_growth_rates_against_a_parameter_are_those_of_the_machines():
