@@ -31,6 +31,14 @@ class Asked(Protocol):
     def table(self, x: Floats) -> Floats: ...
 
 
+def where_judged(wanted: Asked) -> str:
+    """At which speeds decay is judged, in words."""
+    if not wanted.judged:
+        return f"at each design's best stable speed up to {wanted.V_max:g} m/s"
+    start, stop = wanted.judged
+    return f"at {start:g} m/s" if start == stop else f"at the worst speed from {start:g} to {stop:g} m/s"
+
+
 @dataclass(frozen=True)
 class Wanted:
     """A box of designs of a family, perhaps cut by ranges of trail and fork offset [m], and what is asked.

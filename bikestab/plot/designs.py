@@ -68,7 +68,7 @@ def draw_designs(wanted: Wanted, best: Best, curves: Sequence[Curve] = ()) -> Fi
     handles += _curves(ax, curves)
     handles += straight_fork(ax, family.bicycle) if family.of_front else []
     label_family(ax, family.x, family.y, family)
-    found, marks = draw_optima(ax, family, best)
+    found, marks = draw_optima(ax, wanted, best)
     what = f"widest interval of stable speeds up to {wanted.V_max:g} m/s"
     unusual = remarks(family.bicycle, family.model, {family.x, family.y})
     set_title(ax, f"{short(family.bicycle.name)}{unusual}: {what}", **title_place(ax))

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from bikestab.design.best import Best
-from bikestab.design.criteria import Wanted
+from bikestab.design.wanted import Wanted, where_judged
 from bikestab.plot.axes import ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import legend_below
@@ -26,7 +26,8 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]], name: str = "") ->
     lines = lines_for(len(machines))
     figure = Figure(figsize=(6.2, 4.4), layout="constrained")
     ax = figure.add_subplot()
-    curves, owns = [], []
+    curves: list[Curve] = []
+    owns: dict[str, str] = {}  # a mark of those at each place
     for (whose, _, best), line in zip(machines, lines, strict=True):
         x, y = np.array([(d["width"], d["growth_rate"]) for d in best.pareto[::-1]]).reshape(-1, 2).T
         ax.plot(x, y, marker=line.marker, ms=4, color=line.color, ls=line.ls)
@@ -36,7 +37,7 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]], name: str = "") ->
             face = "white" if own["at"] else line.color  # hollow: it competes with no design of the front
             edge = line.color if own["at"] else "black"
             ax.plot(*place, line.marker, ms=_OWN, mfc=face, mec=edge, mew=1.2, zorder=4)
-            owns.append(own["at"])
+            owns.setdefault(own["at"], line.marker)
         else:
             place = np.zeros(1), np.zeros(1)
         curves.append(
@@ -44,16 +45,18 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]], name: str = "") ->
         )
     ax.axhline(0, color="k", lw=0.8, zorder=1)
     ax.set_xlabel(f"width of the stable interval up to {machines[0][1].V_max:g} m/s [m/s]  (wider →)")
-    ax.set_ylabel("growth rate where it is judged [s⁻¹]  (↓ decays faster)")
+    judged = where_judged(machines[0][1])
+    ax.set_ylabel(f"growth rate {judged} [s⁻¹]\n(↓ decays faster)")
     ax.set_xlim(left=0)
     ticks_inside(ax)
     label_curves(ax, curves)
-    style: dict[str, Any] = {"marker": "o", "ms": _OWN, "mew": 1.2, "ls": ""}
-    words = {at: f"own design, {at}" if at else "own design of each" for at in sorted({*owns})}
+    style: dict[str, Any] = {"ms": _OWN, "mew": 1.2, "ls": ""}
+    words = {at: f"own design, {at}" if at else "own design of each, in its mark" for at in sorted(owns)}
     faces: dict[str, dict[str, Any]] = {
         at: {"mfc": "white", "mec": "0.4"} if at else {"mfc": "0.6", "mec": "black"} for at in words
     }
-    legend_below(figure, [Line2D([], [], label=words[at], **style, **faces[at]) for at in words])
+    styles = {at: {"label": word, "marker": owns[at], **style, **faces[at]} for at, word in words.items()}
+    legend_below(figure, [Line2D([], [], **each) for each in styles.values()])
     title = "width-decay fronts: no other design is better in both"
     set_title(ax, f"{short(name)}: {title}" if name else title.capitalize())
     return figure

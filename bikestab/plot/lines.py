@@ -35,12 +35,12 @@ def draw_on_white(
         ax.plot(x, y, lw=lw, **style)
 
 
-def straight_fork(ax: Axes, bicycle: Bicycle) -> list[Line2D]:
+def straight_fork(ax: Axes, bicycle: Bicycle, *, rim: bool = True) -> list[Line2D]:
     """The line in axes of λ and σ where the fork offset b is zero; what the legend says of it, if drawn."""
     lam, sigma = straight_designs(bicycle, ax.get_xlim(), ax.get_ylim())
     if np.isnan(sigma).all():
         return []
-    draw_on_white(ax, [(lam, sigma)], **STRAIGHT)
+    draw_on_white(ax, [(lam, sigma)], rim=rim, **STRAIGHT)
     return [straight_entry()]
 
 

@@ -11,7 +11,7 @@ from matplotlib.transforms import ScaledTranslation
 
 from bikestab.design.best import Best
 from bikestab.design.optimum import place_in_plane
-from bikestab.family import Family
+from bikestab.design.wanted import Wanted, where_judged
 from bikestab.plot.axes import HALO
 from bikestab.plot.colours import OWN
 from bikestab.plot.placing import Room
@@ -40,8 +40,9 @@ class Mark(NamedTuple):
     place: tuple[float, float]
 
 
-def draw_optima(ax: Axes, family: Family, best: Best) -> tuple[list[Line2D], list[Mark]]:
+def draw_optima(ax: Axes, wanted: Wanted, best: Best) -> tuple[list[Line2D], list[Mark]]:
     """The front between width and decay, and marks, each at its place; the legend's entries, the marks."""
+    family = wanted.family
     handles: list[Line2D] = []
     frame: dict[str, Any] = {"ls": "", "mec": "black", "clip_on": False, "zorder": 5}
     if len(best.pareto) > 2:
@@ -53,6 +54,8 @@ def draw_optima(ax: Axes, family: Family, best: Best) -> tuple[list[Line2D], lis
         if design and design["at"] != "outside the box":
             place = place_in_plane(family, design)
             face = OWN if name == "own" else "white"
+            if name == "fastest_decay":
+                label += f" {where_judged(wanted) if wanted.judged else 'at its best stable speed'}"
             (drawn,) = ax.plot(*place, marker=marker, ms=size, mew=1.4, mfc=face, label=label, **frame)
             marks.append(Mark(drawn, place))
     if best.closest:

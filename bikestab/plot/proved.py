@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -42,9 +45,17 @@ def colour_proved(ax: Axes, x: Floats, y: Floats, cells: NDArray[np.uint8]) -> l
     ax.pcolormesh(x, y, cells, cmap=ListedColormap(colours), norm=norm, shading="flat", rasterized=True)
     ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     areas = np.outer(np.diff(y), np.diff(x)) / ((y[-1] - y[0]) * (x[-1] - x[0]))
-    shares = [100 * float(areas[cells == kind].sum()) for kind in range(len(_KINDS))]
+    shares = _rounded([100 * float(areas[cells == kind].sum()) for kind in range(len(_KINDS))])
     (undecided, *proved) = (
-        Patch(facecolor=colour, edgecolor="0.25", lw=0.8, label=f"{name}: {share:.3g} %")
+        Patch(facecolor=colour, edgecolor="0.25", lw=0.8, label=f"{name}: {share} %")
         for (name, colour), share in zip(_KINDS, shares, strict=True)
     )
     return [*proved, undecided]
+
+
+def _rounded(shares: Sequence[float]) -> list[str]:
+    """Per cents that add to 100 as they are written, with a digit of the least at least."""
+    least = min((share for share in shares if share > 0), default=1.0)
+    digits = min(max(1, -math.floor(math.log10(least))), 6)
+    ends = np.round(np.cumsum([0.0, *shares]), digits)
+    return [f"{share:.{digits}f}".removesuffix(".0") for share in np.diff(ends)]

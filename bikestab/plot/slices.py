@@ -59,7 +59,7 @@ def draw_slice(subject: Subject, fixed: Axis, value: float, field: PlaneField = 
     bar, handles = _coloured(figure, ax, subject, section, field)
     if subject.axes == AXES and fixed == "V" and handles:
         ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-        handles += straight_fork(ax, subject.family.bicycle)
+        handles += straight_fork(ax, subject.family.bicycle, rim=field != "certified")
     handles += _own_design(ax, section)
     _decorate(ax, subject, section)
     arrange_plane(figure, ax, bar, legend_below(figure, handles))
@@ -79,7 +79,7 @@ def _coloured(
     x, y = (subject.axis(name) for name in section.axes)
     if field == "certified":
         cells = proved_in_plane(subject, section.fixed, section.value)
-        return None, [*colour_proved(ax, x, y, cells), *_edges(ax, section, x, y)]
+        return None, [*colour_proved(ax, x, y, cells), *_edges(ax, section, x, y, rim=False)]
     if field == "probability":
         if not isinstance(subject, Volume) or field not in subject.fields:
             problem, hint = "has no probability", "a config with 'ensemble:' gives one"
@@ -132,14 +132,19 @@ def _samples(x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return np.linspace(x[0], x[-1], _SAMPLES), np.linspace(y[0], y[-1], _SAMPLES)
 
 
-def _edges(ax: Axes, section: Section, x: Floats, y: Floats, *, spread: bool = False) -> list[Line2D]:
-    """Draw the boundary curves, thin where there is a ``spread`` around; what the legend says of them."""
+def _edges(
+    ax: Axes, section: Section, x: Floats, y: Floats, *, rim: bool = True, spread: bool = False
+) -> list[Line2D]:
+    """Draw the boundary curves, thin where there is a ``spread`` around; what the legend says of them.
+
+    A white ``rim`` would be read as undecided where white means this.
+    """
     handles = []
     for name, curves in edge_curves(section, list(EDGES), *_samples(x, y)).items():
         label, style = EDGES[name]
         if curves:
             lw, word = (1.2, ", no spread") if spread else (1.8, " boundary")
-            draw_on_white(ax, curves, lw=lw, rim=not spread, color="black", ls=style)
+            draw_on_white(ax, curves, lw=lw, rim=rim and not spread, color="black", ls=style)
             handles.append(entry(label + word, lw=lw, color="black", ls=style))
     return handles
 

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from bikestab_cli.several import Chosen
 
     from bikestab.design.best import Best
-    from bikestab.design.criteria import Wanted
     from bikestab.design.optimum import JudgedDesign
+    from bikestab.design.wanted import Wanted
 
 
 VANISHES = (
@@ -94,21 +94,16 @@ def _searched(wanted: Wanted, *, trail: bool) -> str:
 
 
 def _asked(wanted: Wanted) -> str:
+    from bikestab.design.wanted import where_judged
+
     stable = f", stable from {wanted.stable[0]:g} to {wanted.stable[1]:g} m/s" if wanted.stable else ""
-    return f"{stable}\ndecay: growth rate {_where_judged(wanted)}"
+    return f"{stable}\ndecay: growth rate {where_judged(wanted)}"
 
 
 def _optima(best: Best) -> dict[str, JudgedDesign]:
     rows = {"own": best.own, "widest interval": best.widest, "lowest V1": best.lowest_V1}
     rows |= {"fastest decay": best.fastest_decay, "closest": best.closest}
     return {name: design for name, design in rows.items() if design}
-
-
-def _where_judged(wanted: Wanted) -> str:
-    if not wanted.judged:
-        return f"at each design's best stable speed up to {wanted.V_max:g} m/s"
-    start, stop = wanted.judged
-    return f"at {start:g} m/s" if start == stop else f"at the worst speed from {start:g} to {stop:g} m/s"
 
 
 def _nothing(wanted: Wanted, closest: JudgedDesign) -> str:
@@ -168,6 +163,8 @@ def _is_cut(wanted: Wanted, design: JudgedDesign) -> bool:
 
 
 def _notes(wanted: Wanted, designs: list[JudgedDesign], best: Best) -> list[str]:
+    from bikestab.design.wanted import where_judged
+
     notes = []
     if any(_is_cut(wanted, design) for design in designs):
         notes.append(_cut_note(wanted))
@@ -176,5 +173,5 @@ def _notes(wanted: Wanted, designs: list[JudgedDesign], best: Best) -> list[str]
         notes.append(VANISHES)
     fastest = best.fastest_decay
     if fastest and (fastest["growth_rate"] is None or fastest["growth_rate"] >= 0):
-        notes.append(f"no design that was found decays {_where_judged(wanted)}")
+        notes.append(f"no design that was found decays {where_judged(wanted)}")
     return ["\n".join(notes)] if notes else []

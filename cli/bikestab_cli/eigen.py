@@ -90,7 +90,7 @@ def command(
       bikestab eigen --bicycle meijaard2007 --locus -o locus.png
       bikestab eigen --bicycle meijaard2007 --shapes --at 5
       bikestab eigen --bicycle meijaard2007 --push roll_rate=0.5 -o push.png
-      bikestab eigen --bicycle meijaard2007 --over delta=0:5:11 --at 4
+      bikestab eigen --bicycle meijaard2007 --over delta=0:8:9 --at 5
       bikestab eigen --bicycle meijaard2007 --over mB=60:110:11 --over delta=0:5:3
       bikestab eigen --lam 11deg --sigma 0.08 --delta 1 --V 5 --json
     """

@@ -51,7 +51,7 @@ def test_colours_are_the_widths():
     assert np.array_equal(np.ma.getmaskarray(values), width == 0)
     assert legend[:4] == ["V₂ above 30 m/s or unbounded", "V₁ [m/s]", "V₂ [m/s]", "no stable speed"]
     assert legend[4] == "fork offset b = 0 (below: forwards)"
-    assert legend[5:] == ["width-decay front", "widest interval", "lowest V₁", "fastest decay"]
+    assert legend[5:] == ["width-decay front", "widest interval", "lowest V₁", "fastest decay at 5 m/s"]
     assert (ax.get_xlim(), ax.get_ylim()) == ((0, 0.6), (0, 0.3))
 
 

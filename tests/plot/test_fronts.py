@@ -56,4 +56,4 @@ def test_an_own_design_that_was_not_searched_is_hollow_and_said_to_be():
         text.get_text(): mark.get_markerfacecolor()
         for text, mark in zip(legend.texts, legend.legend_handles, strict=True)
     }
-    assert told == {"own design of each": "0.6", "own design, outside the box": "white"}
+    assert told == {"own design of each, in its mark": "0.6", "own design, outside the box": "white"}
