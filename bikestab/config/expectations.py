@@ -17,7 +17,7 @@ from bikestab.errors import InputError
 from bikestab.model import exact_table
 from bikestab.records import Design, Interval, design_record, interval_records
 from bikestab.speeds import intervals_of
-from bikestab.variants import check_names, check_values, varied
+from bikestab.variants import check_names, check_values, parameter_of, varied
 
 _Key = tuple[str | int, ...]
 
@@ -51,7 +51,7 @@ class Outcome(NamedTuple):
     """An expectation, the design it is of, the stable intervals found there, and whether it holds.
 
     ``edges`` are the ends that are expected, as the ``nearest`` of these intervals has them, told by its
-    number; all this took so many ``seconds``.
+    number; all this took so many ``seconds``. ``units`` are those of the parameters with values of their own.
     """
 
     expected: Expectation
@@ -61,6 +61,7 @@ class Outcome(NamedTuple):
     edges: list[Edge]
     holds: bool
     seconds: float
+    units: dict[str, str]
 
 
 def outcome_of(config: ScanConfig | CheckConfig, expected: Expectation, key: _Key) -> Outcome:
@@ -71,7 +72,8 @@ def outcome_of(config: ScanConfig | CheckConfig, expected: Expectation, key: _Ke
     nearest, edges = nearest_interval(expected, found)
     holds = not found if expected.stable else all(edge.holds for edge in edges)
     design = design_record(lam, sigma, machine)
-    return Outcome(expected, design, found, nearest, edges, holds, perf_counter() - start)
+    units = {name: parameter_of(config.machine, name).unit for name in expected.model_extra or {}}
+    return Outcome(expected, design, found, nearest, edges, holds, perf_counter() - start, units)
 
 
 def _designed(

@@ -98,7 +98,9 @@ def _row(name: str, outcome: Outcome) -> list[str]:
 
 def _others(outcome: Outcome) -> list[str]:
     """The other parameters that have values of their own in an expectation."""
-    return [f"{name} = {value:.6g}" for name, value in (outcome.expected.model_extra or {}).items()]
+    units = {name: "" if unit == "1" else f" {unit}" for name, unit in outcome.units.items()}
+    others = outcome.expected.model_extra or {}
+    return [f"{name} = {value:.6g}{units[name]}" for name, value in others.items()]
 
 
 def _text(V: float | None) -> str:

@@ -288,11 +288,13 @@ def test_other_parameters_are_told_of(bikestab):
     code, out, _ = bikestab("check", "a.yaml", "--junit", "a.xml", "--json")
     first, second = json.loads(out)["results"]
     assert (code, first["over"], "over" in second) == (0, {"mB": 100}, False)
-    assert "mB = 100" in bikestab("check", "a.yaml")[1]
+    assert "mB = 100 kg" in bikestab("check", "a.yaml")[1]
     names = [case.name for suite in junitparser.JUnitXml.fromfile("a.xml") for case in suite]
-    assert names[0].endswith(", mB = 100")
+    assert names[0].endswith(", mB = 100 kg")
     texts = [case.system_out for suite in junitparser.JUnitXml.fromfile("a.xml") for case in suite]
-    assert texts[0].startswith("with mB = 100\nexpected [m/s]: 4.513 6.394 within 0.001\nfound [m/s]: 4.51")
+    assert texts[0].startswith(
+        "with mB = 100 kg\nexpected [m/s]: 4.513 6.394 within 0.001\nfound [m/s]: 4.51"
+    )
     assert texts[1].startswith("expected [m/s]: 4.2924 any")
     # what vrange says of the same machine
     _, out, _ = bikestab("vrange", "--bicycle", "meijaard2007", "--set", "mB=100", "--json")
