@@ -44,7 +44,8 @@ class Shapes(NamedTuple):
 class Motion(NamedTuple):
     """Roll, steer and their rates (4, n) at times t [s], and the path: yaw [rad], and metres on the road.
 
-    ``x`` is along the road, ``y`` the rear and ``y_front`` the front contact's way to the right of it.
+    The rear contact is at ``x`` along the road and ``y`` to the right of it, the front one at ``x_front``, a
+    wheelbase ahead, and ``y_front``.
     """
 
     V: float
@@ -54,6 +55,7 @@ class Motion(NamedTuple):
     x: Floats
     y: Floats
     y_front: Floats
+    x_front: Floats
 
 
 class _Moved(NamedTuple):
@@ -197,4 +199,4 @@ def _path(bicycle: Bicycle, design: tuple[float, float], V: float, t: Floats, mo
     yaw = turn * (V * moved.once + trail * (steer - start))
     y = V * turn * (V * moved.twice + trail * (moved.once - start * t)) + 0.0  # not -0
     front = y + math.cos(lam) * (V * moved.once - trail * start)  # y + c yaw − trail cos λ steer
-    return Motion(V, t, moved.states, yaw, V * t, y, front)
+    return Motion(V, t, moved.states, yaw, V * t, y, front, V * t + bicycle.c)

@@ -19,6 +19,7 @@ MOTION: Columns = {
     "t": ("float64", "s"), "roll": ("float64", "rad"), "steer": ("float64", "rad"),
     "roll_rate": ("float64", "rad/s"), "steer_rate": ("float64", "rad/s"), "yaw": ("float64", "rad"),
     "x": ("float64", "m"), "y": ("float64", "m"), "y_front": ("float64", "m"),
+    "x_front": ("float64", "m"),
 }  # fmt: skip
 
 
@@ -35,7 +36,8 @@ def shapes_blocks(found: Shapes) -> Iterator[Block]:
 def motion_blocks(found: Motion) -> Iterator[Block]:
     """The rows of MOTION: one for each time."""
     states = dict(zip(STATES, found.states, strict=True))
-    yield {"t": found.t, **states, "yaw": found.yaw, "x": found.x, "y": found.y, "y_front": found.y_front}
+    path = {"x": found.x, "y": found.y, "y_front": found.y_front, "x_front": found.x_front}
+    yield {"t": found.t, **states, "yaw": found.yaw, **path}
 
 
 def against_columns(found: Against, beside: Collection[str] = ()) -> Columns:

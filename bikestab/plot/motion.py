@@ -31,7 +31,7 @@ def draw_motion(name: str, found: Motion, until: float, push: Mapping[str, float
     top, road = figure.subplots(2, 1)
     roll, steer = found.states[:2]
     _curves(top, [("roll", found.t, roll, _REAR), ("steer", found.t, steer, _FRONT)])
-    paths = [("rear wheel", found.x, found.y, _REAR), ("front wheel", found.x, found.y_front, _FRONT)]
+    paths = [("rear wheel", found.x, found.y, _REAR), ("front wheel", found.x_front, found.y_front, _FRONT)]
     _curves(road, paths, down=True)
     top.set_xlabel("time [s]")
     top.set_ylabel("to the right [rad]")
@@ -89,10 +89,11 @@ def _curves(ax: Axes, drawn: Sequence[Drawn], *, down: bool = False) -> None:
         ax.plot(x, y, color=line.color, ls=line.ls, lw=1.8)
     ax.axhline(0, color="0.5", lw=0.7, zorder=1)
     right = max(float(x[-1]) for _, x, _, _ in drawn)
-    if not right:  # no way: marks, beside which names have room
+    moves = any(x[-1] > x[0] for _, x, _, _ in drawn)
+    if not moves:  # no way: marks, beside which names have room
         for _, x, y, line in drawn:
             ax.plot(x[-1:], y[-1:], "o", color=line.color, ms=6)
-    ax.set_xlim(0.0 if right else -_STANDING, right or _STANDING)
+    ax.set_xlim(0.0 if moves else -_STANDING, right if moves else right + _STANDING)
     low, high = min(0.0, *(y.min() for _, _, y, _ in drawn)), max(0.0, *(y.max() for _, _, y, _ in drawn))
     margin = 0.05 * (high - low)
     low, high = (low - margin, high + margin) if margin > _LEAST else (-_STANDING, _STANDING)

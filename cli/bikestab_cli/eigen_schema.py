@@ -46,8 +46,9 @@ _MOTION = record(
     "the motion, with --push; positive to the right",
     t=some(NUMBERS, "times [s]"), roll=some(NUMBERS, "[rad]"), steer=some(NUMBERS, "[rad]"),
     roll_rate=some(NUMBERS, "[rad/s]"), steer_rate=some(NUMBERS, "[rad/s]"), yaw=some(NUMBERS, "[rad]"),
-    x=some(NUMBERS, "along the road [m]"), y=some(NUMBERS, "rear contact, sideways [m]"),
+    x=some(NUMBERS, "rear contact, along the road [m]"), y=some(NUMBERS, "rear contact, sideways [m]"),
     y_front=some(NUMBERS, "front contact, sideways [m]"),
+    x_front=some(NUMBERS, "front contact, along the road [m]"),
 )  # fmt: skip
 _PUSH = {"type": "object", "additionalProperties": NUMBERS, "description": "states at the start [rad, rad/s]"}
 _RANGES = some(

@@ -66,6 +66,7 @@ def told_motion(machine: Chosen, design: Any, found: Motion, push: Mapping[str, 
     names = ["t\n[s]", "roll\n[rad]", "steer\n[rad]", "yaw\n[rad]"]
     names += ["along\n[m]", "rear wheel\n[m]", "front wheel\n[m]"]
     note = "all positive to the right; the wheels' contacts are so far to the right of the line ridden before"
+    note += f"\nalong: of the rear contact; the front one is {found.x_front[0]:.6g} m further"
     if (left := leaves(found)) is not None:
         note += f"\nthe model is linear: beyond about {LARGE:g} rad these angles are not those of a machine"
         note += f"; it leaves it at {left:.3g} s"

@@ -67,6 +67,8 @@ def test_push(bikestab):
     table = rows("a.csv")
     assert len(table) == 501
     assert [float(row["steer"]) for row in table] == found.states[1].tolist()
+    assert [float(row["x_front"]) for row in table] == (found.x + BIKE.c).tolist()
+    assert "the front one is 1.02 m further" in out
     assert bikestab("eigen", *BENCHMARK, "--push", "roll=2deg", "-o", "a.svg")[:2] == (0, "a.svg\n")
 
 
@@ -293,6 +295,7 @@ def test_a_motion_is_drawn_until_a_quarter_turn(bikestab, monkeypatch):
     exact = motion(BIKE, V, {"roll_rate": 0.5}, t)
     for line, values in zip(lines, (*exact.states[:2], exact.y, exact.y_front), strict=True):
         assert line.get_ydata().tolist() == values.tolist()
+    assert lines[3].get_xdata() - lines[2].get_xdata() == pytest.approx(BIKE.c)  # the front one is ahead
     size = np.abs(exact.states[:2]).max(axis=0)
     assert len(t) > 200
     assert size[:-1].max() < math.pi / 2
@@ -308,7 +311,7 @@ def test_a_motion_is_drawn_until_a_quarter_turn(bikestab, monkeypatch):
 def test_all_of_a_motion_is_drawn_where_angles_are_small():
     drawn = draw_motion("own", motion(BIKE, 5.0, {"roll": 0.1}, np.linspace(0, 4, 50)), 4.0, {"roll": 0.1})
     top, road = drawn.axes
-    assert (top.get_xlim(), road.get_xlim()) == ((0, 4), (0, 20))
+    assert (top.get_xlim(), road.get_xlim()) == ((0, 4), (0, 20 + BIKE.c))
     assert not top.patches
     assert top.get_title() == "own at 5 m/s after a push: roll = 0.1 rad"
 
@@ -462,5 +465,5 @@ def test_a_machine_that_stands_leaves_no_rounding_on_the_road():
     road = draw_motion("own", motion(BIKE, 0.0, {"roll_rate": 0.5}, np.linspace(0, 0.5, 51)), 0.5, push).axes[
         1
     ]
-    assert road.get_xlim() == (-0.5, 0.5)
+    assert road.get_xlim() == (-0.5, BIKE.c + 0.5)
     assert road.get_ylim() == (0.5, -0.5)
