@@ -49,15 +49,14 @@ def draw_compared(sides: Sequence[Side], regions: Sequence[Region]) -> Figure:
     for k, ax in zip(drawn, axes, strict=True):
         _map(ax, regions[k], largest or 1.0)
         _label(ax, [sides[0], sides[k + 1]], regions[k].box, alone=len(drawn) == 1)
-        words = f"differ in {100 * regions[k].share:.3g} % of their union"
-        who = f"A and {letter_of(k + 1)}" if len(regions) > 1 else "Stable regions"
-        words = f"{who} {words}" + ("" if len(drawn) > 1 else "; white: no difference")
+        words = f"stable regions differ in {100 * regions[k].share:.3g} % of their union"
+        words = f"A and {letter_of(k + 1)}: {words} over these axes and speed"
         set_title(ax, *([] if growth else [named[0][0], named[k + 1][0]]), words, panels=columns)
     if axes and largest:
         place: dict[str, Any] = {"location": "bottom", "aspect": 30}  # beside there may be the trail
         bar = figure.colorbar(axes[0].collections[0], ax=axes, shrink=1 / columns, **place)
-        none = "; white: none" if len(drawn) > 1 else ""
-        bar.set_label(f"speeds at which exactly one is stable [m/s]{none}")
+        white = "\nwhite: at each speed both are stable, or neither"
+        bar.set_label(f"speeds at which exactly one is stable [m/s]{white}")
     if engine := figure.get_layout_engine():
         engine.execute(figure)  # which says where the axes are
     for k, ax in zip(drawn, axes, strict=True):
@@ -72,6 +71,8 @@ def _map(ax: Axes, found: Region, largest: float) -> None:
         found.box.x, found.box.y, np.ma.masked_equal(found.apart.T, 0), cmap="cividis", shading="nearest",
         vmin=0, vmax=largest, rasterized=True,
     )  # fmt: skip
+    if not found.difference:
+        ax.text(0.5, 0.5, "identical", transform=ax.transAxes, ha="center", va="center", size=10)
 
 
 def _growth(ax: Axes, named: Sequence[tuple[str, Side]], speeds: tuple[float, float]) -> None:

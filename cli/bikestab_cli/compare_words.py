@@ -11,6 +11,7 @@ from bikestab.records import letter_of
 
 _BESIDE = 4  # machines in a table, at most
 _MOST = 1000  # per cent: of what is nearly zero they say nothing
+_SIZE = "%: of the size of A's value"
 Change = Mapping[str, Any]
 
 
@@ -23,7 +24,7 @@ def told(record: Mapping[str, Any]) -> str:
         parts.append(table(["parameter", "A", "B", "change", "%", ""], rows))
     rows = [_row(each, asked) for each in (*record["ends"], *record["growth_rate"])]
     if rows:
-        parts.append(table(["", "A", "B", "change", "%", ""], rows, fold=0))
+        parts.append(table(["", "A", "B", "change", "%", ""], rows, fold=0) + f"\n{_SIZE}")
     else:
         none = record["A"]["design"] and record["B"]["design"] and "no stable speed of either design"
         parts.append(none or "one of them has no design of its own: give --lam and --sigma")
@@ -39,6 +40,7 @@ def told_all(records: Sequence[Mapping[str, Any]], parameters: Sequence[Sequence
     sides = [records[0]["A"], *(record["B"] for record in records)]
     asked = records[0]["within"] is not None
     parts = _heads(sides)
+    before = len(parts)
     for start in range(0, len(records), _BESIDE - 1):
         some = slice(start, start + _BESIDE - 1)
         letters = ["A", *(letter_of(start + i + 1) for i in range(len(records[some])))]
@@ -47,6 +49,8 @@ def told_all(records: Sequence[Mapping[str, Any]], parameters: Sequence[Sequence
         found = [[*record["ends"], *record["growth_rate"]] for record in records[some]]
         if rows := _beside(found, asked):
             parts.append(table(["", *letters], rows, fold=0))
+    if len(parts) > before:
+        parts[-1] += f"\n=: as A; {_SIZE}"
     without = [letter_of(i) for i, side in enumerate(sides) if not side["design"]]
     if without:
         has = "has no design of its own" if len(without) == 1 else "have no design of their own"
