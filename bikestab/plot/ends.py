@@ -10,11 +10,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.transforms import ScaledTranslation
 
 from bikestab.model import Floats
 from bikestab.plot.axes import LABELS, ticks_inside
+from bikestab.plot.endbars import draw_bars, nine_tenths
 from bikestab.plot.framed import inside, largest_told, top_of
-from bikestab.plot.headings import in_rows, set_title, short
+from bikestab.plot.headings import set_title, short
+from bikestab.plot.held import held_words, kind_words, share_words
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import Curve, Line, label_curves, lines_for
@@ -27,32 +30,41 @@ AXES = {
 }  # fmt: skip
 _LOWER, _UPPER, _SIDE = 2.2, 1.2, 0.6  # widths of the lines of V1 and V2, and between them at a run's end
 _ARROW, _SIZE = "$\u2191$", 9  # where there is no upper limit
+_APART, _ROOM = 6.0, 0.03  # points between marks of spreads at one place; beside the first and last of them
 _ARROWS, _AWAY = 12, 0.04  # along the axis; above V1, as a share of the axis
 
 
 @own_settings()
-def draw_ends(machines: Sequence[tuple[str, Answers]], axis: str, label: str = "", name: str = "") -> Figure:
+def draw_ends(
+    machines: Sequence[tuple[str, Answers]], axis: str, label: str = "", name: str = "", uncertain: str = ""
+) -> Figure:
     """Machines by name with their designs' stable speeds; ``axis`` is the key of what varies, or empty.
 
     Where answers have a ``spread``, as ``design.spread.plain`` gives it, lines are over nine tenths of the
-    ends. ``label`` says what it is, if it is none of AXES, and ``name`` whose designs they all are.
+    ends. ``label`` says what it is, if it is none of AXES, and ``name`` whose designs they all are;
+    ``uncertain`` names the standard deviations of which the spreads are.
     Raises InputError for more machines than there are lines that differ.
     """
     lines = lines_for(len(machines))
     ends = [V for _, answers in machines for a in answers for i in a["intervals"] for V in (i["V1"], i["V2"])]
     top = top_of(*_weighted(machines, axis))
-    figure = Figure(figsize=(6.2, 4.4 if axis else 1.6 + 0.42 * max(len(machines), 3)), layout="constrained")
+    figure = Figure(
+        figsize=(6.2, 4.4 if axis else 1.25 + 0.45 * len(machines) + 0.5 * bool(uncertain)),
+        layout="constrained",
+    )
     ax = figure.add_subplot()
     ticks_inside(ax)
     if axis:
         _over(ax, machines, axis, lines, top)
         ax.set_xlabel(label or AXES[axis], parse_math=False)
     else:
-        _bars(ax, machines, lines, top)
+        draw_bars(ax, machines, lines, top)
     legend_below(figure, _entries(machines, ends, bool(axis)))
     whose = name or (machines[0][0] if axis and len(machines) == 1 else "")
     whose = f"{short(whose)}: stable speeds" if whose else "Stable speeds"
-    set_title(ax, whose + ("" if any(V is not None for V in ends) else ": none"))
+    held = held_words([answers for _, answers in machines], axis, not name) if axis else ""
+    whose += "" if any(V is not None for V in ends) else ": none"
+    set_title(ax, *filter(None, [whose, held, uncertain and f"standard deviations: {uncertain}"]))
     return figure
 
 
@@ -72,21 +84,22 @@ def _weighted(machines: Sequence[tuple[str, Answers]], axis: str) -> tuple[list[
 def _entries(machines: Sequence[tuple[str, Answers]], ends: Sequence[float | None], over: bool) -> list[Any]:
     """What the legend says: of bars, whose words are beside them, nothing but of what was drawn at random."""
     several = len(machines) > 1
+    own = [answers for _, answers in machines]
     above, below = (": stable above", ": stable below") if several else ("", "")
     entries: list[Any] = []
     if over:
-        entries.append(entry(f"V₁{above}", color="0.3", lw=_LOWER))
+        entries.append(entry(f"V₁{above}{kind_words(own, 'lower')}", color="0.3", lw=_LOWER))
         if any(V is not None for V in ends[1::2]):
-            entries.append(entry(f"V₂{below}", color="0.3", lw=_UPPER))
-    if over and None in ends:
-        words = "no upper limit"
-        entries.append(
-            entry(words, color="0.3", marker=_ARROW, ms=_SIZE, lw=0)
-            if several
-            else Patch(facecolor="0.85", label=f"up to the frame: {words}")
-        )
+            entries.append(entry(f"V₂{below}{kind_words(own, 'upper')}", color="0.3", lw=_UPPER))
+    if over and several and None in ends:
+        entries.append(entry("no upper limit", color="0.3", marker=_ARROW, ms=_SIZE, lw=0))
+    if over and not several and ends:
+        words = "stable, no upper limit at the frame" if None in ends else "stable"
+        entries.append(Patch(facecolor=lines_for(1)[0].color, alpha=0.15, label=words))
     if any("spread" in answer for _, answers in machines for answer in answers):
-        entries.append(entry("90 % of the machines", color="0.3", lw=1, marker="|"))
+        share = share_words([answers for _, answers in machines])
+        words = "90 % of the machines" + (f" ({share})" if share else "")
+        entries.append(entry(words, color="0.3", lw=1, marker="|"))
     return entries
 
 
@@ -100,7 +113,7 @@ def _over(
     """
     values = [answer[axis] for _, answers in machines for answer in answers]
     several, curves = len(machines) > 1, []
-    for (name, answers), line in zip(machines, lines, strict=True):
+    for number, ((name, answers), line) in enumerate(zip(machines, lines, strict=True)):
         runs = [_Run(*_drawn(run, axis)) for run in _runs(answers)]
         range_ = min(values), max(values)
         for x, V1, V2 in runs:
@@ -116,10 +129,17 @@ def _over(
         if several:
             _mark_open(ax, runs, line, range_, top)
         curves += _named(name if several else "", runs, line, range_, top)
+        middle = _APART * (number - (len(machines) - 1) / 2)
         for answer in answers:
-            for speeds, at in _nine_tenths(answer, answer[axis], 0.0, top):
-                ax.plot(at, speeds, "_-", color=line.color, lw=1, ms=7, clip_on=False)
-    ax.set_xlim(min(values), max(values))
+            for k, (speeds, at) in enumerate(nine_tenths(answer, answer[axis], 0.0, top)):
+                aside = ScaledTranslation(
+                    (middle + _APART * (k - 0.5) / 2) / 72, 0, ax.figure.dpi_scale_trans
+                )
+                ax.plot(at, speeds, "_-", color=line.color, lw=1, ms=5, transform=ax.transData + aside)
+    room = (
+        _ROOM * (max(values) - min(values)) if any("spread" in a for _, own in machines for a in own) else 0
+    )
+    ax.set_xlim(min(values) - room, max(values) + room)
     ax.set_ylim(0, top)
     ax.set_ylabel(LABELS["V"])
     label_curves(ax, curves)
@@ -201,42 +221,3 @@ def _goes_on(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
     inf = math.inf
     overlap = min(before["V2"] or inf, after["V2"] or inf) > max(before["V1"], after["V1"])
     return overlap and before["lower"] == after["lower"]
-
-
-def _bars(ax: Axes, machines: Sequence[tuple[str, Answers]], lines: Sequence[Line], top: float) -> None:
-    for row, ((_, answers), line) in enumerate(zip(machines, lines, strict=True)):
-        intervals = answers[0]["intervals"]
-        for k, interval in enumerate(intervals):
-            V1, V2 = interval["V1"], interval["V2"]
-            end = top if V2 is None else V2
-            side = -1 if k % 2 == 0 else 1  # above the bar, the next below
-            ax.barh(row, end - V1, left=V1, height=0.5, color=line.color, alpha=0.45)
-            words = f"{V1:.2f} {interval['lower']}"
-            words += f" … {interval['upper']} {V2:.2f}" if V2 is not None else " … no upper limit"
-            far = 0.5 * top < V1
-            ax.annotate(
-                words, (end if far else V1, row + 0.25 * side), (0, -3 * side),
-                textcoords="offset points", fontsize=8, ha="right" if far else "left",
-                va="bottom" if side < 0 else "top",
-            )  # fmt: skip
-        for speeds, at in _nine_tenths(answers[0], row, 0.1, top):
-            ax.plot(speeds, at, "|-", color="0.2", lw=1, ms=7)
-        if not intervals:
-            ax.annotate("no stable speed", (0, row), (6, 0), textcoords="offset points", va="center")
-    ax.set_yticks(range(len(machines)), [in_rows(name) for name, _ in machines], parse_math=False)
-    ax.set_ylim(len(machines) - 0.5, -0.7)
-    ax.set_xlim(0, top)
-    ax.set_xlabel(LABELS["V"])
-
-
-def _nine_tenths(
-    answer: Mapping[str, Any], at: float, apart: float, top: float
-) -> list[tuple[list[float], list[float]]]:
-    """Where nine tenths of V1 and of V2 lie, cut at ``top``, and their places on both sides of ``at``."""
-    lines = []
-    for name, shift in (("V1", -apart), ("V2", apart)):
-        end = answer.get("spread", {}).get(name, {})
-        if end.get("low") is not None:
-            high = top if end["high"] is None else end["high"]
-            lines.append(([min(top, end["low"]), min(top, high)], [at + shift] * 2))
-    return lines

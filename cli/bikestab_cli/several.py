@@ -55,11 +55,11 @@ def told_apart(machines: Sequence[Chosen]) -> tuple[str, list[str]]:
     """What machines have in common that a picture's title says, and what tells each from the others there."""
     names = {machine.bicycle.name for machine in machines}
     if len(machines) > 1 and len(names) == 1 and all(machine.set for machine in machines):
-        return names.pop(), [_with_units(machine) for machine in machines]
+        return names.pop(), [with_units(machine) for machine in machines]
     return "", [machine.words for machine in machines]
 
 
-def _with_units(machine: Chosen) -> str:
+def with_units(machine: Chosen) -> str:
     """What is set, for a picture."""
     from bikestab.variants import FRONT, parameter_of
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 from bikestab_cli.options import tell_once, tell_which, told_as_options
+from bikestab_cli.several import Chosen, with_units
 
 if TYPE_CHECKING:
     from bikestab.bicycle import Bicycle
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from bikestab.model import Model
 
 MOST_SPREADS = 100  # designs at once
+_NAMED = 5  # standard deviations in a picture
 
 
 def spreads(
@@ -62,3 +64,16 @@ def with_spreads(answers: Sequence[Mapping[str, Any]], known: Sequence[Spread]) 
 
     more = [{"spread": plain(spread)} for spread in known] or [{}] * len(answers)
     return [{**answer, **each} for answer, each in zip(answers, more, strict=True)]
+
+
+def uncertain_words(machines: Sequence[Chosen], known: Sequence[Sequence[Spread]]) -> str:
+    """The standard deviations that all spreads of a picture are of, or that they are many or differ."""
+    every = [(m, spread["deviations"]) for m, own in zip(machines, known, strict=True) for spread in own[:1]]
+    if not every:
+        return ""
+    machine, deviations = every[0]
+    if any(own != deviations for _, own in every):
+        return "each machine's own"
+    if len(deviations) > _NAMED:
+        return f"those of {len(deviations)} parameters"
+    return with_units(Chosen(machine.bicycle, dict(deviations)))

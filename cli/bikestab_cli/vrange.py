@@ -29,7 +29,7 @@ from bikestab_cli.several import (
     several_machines,
     told_apart,
 )
-from bikestab_cli.spreads import spreads, with_spreads
+from bikestab_cli.spreads import spreads, uncertain_words, with_spreads
 from bikestab_cli.vrange_over import show_over
 from bikestab_cli.vrange_words import Found, told_all, told_one
 
@@ -134,7 +134,9 @@ def command(
 
         common, names = told_apart([each.machine for each in shown])
         answers = [_drawn(each, given, model) for each in shown]
-        save(draw_ends([*zip(names, answers, strict=True)], axis, name=common), Path(output))
+        uncertain = uncertain_words([each.machine for each in shown], [each.spreads for each in shown])
+        figure = draw_ends([*zip(names, answers, strict=True)], axis, name=common, uncertain=uncertain)
+        save(figure, Path(output))
         files["picture"] = output
     if as_json:
         print_json(record_of(machines, model, [_results(each) for each in found], files))

@@ -14,7 +14,7 @@ from bikestab_cli.output import print_json, tell_file
 from bikestab_cli.over import along, beside
 from bikestab_cli.parameters import MOST_VALUES
 from bikestab_cli.several import Chosen, record_of, told_apart
-from bikestab_cli.spreads import spreads, with_spreads
+from bikestab_cli.spreads import spreads, uncertain_words, with_spreads
 from bikestab_cli.vrange_words import told_over
 
 if TYPE_CHECKING:
@@ -103,7 +103,8 @@ def _draw(
             curves.append(_closer(machine, over[name], at, name, others, model) if axis else at)
     common, names = told_apart(whose)
     label = "" if axis in AXES else label_of(parameter_of(machines[0].bicycle, name))
-    save(draw_ends([*zip(names, curves, strict=True)], axis, label, common), Path(output))
+    uncertain = uncertain_words(machines, known)
+    save(draw_ends([*zip(names, curves, strict=True)], axis, label, common, uncertain), Path(output))
 
 
 def _closer(

@@ -125,6 +125,7 @@ def test_what_rises_without_limit_leaves_the_axis():
     figure = draw_ends([("paper", answers)], "lam")
     assert 8 < figure.axes[0].get_ylim()[1] < 40
     assert not names_in(figure)
+    assert figure.axes[0].get_title().endswith("\nσ = 0.15")
 
 
 def test_growth_rates_against_a_parameter_are_those_of_the_machines():
