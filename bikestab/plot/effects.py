@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bikestab.model import Floats
-from bikestab.plot.headings import short
+from bikestab.plot.headings import rows_of, short
 from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import lines_for
@@ -19,14 +19,19 @@ from bikestab.plot.sidelabels import lines_for
 _ROWS = 16  # at most
 _SEEN = 0.01  # of the largest effect: a row with less shows nothing
 _WIDTH, _ROW, _MARK = 3.0, 0.27, 0.055  # inches: of an axis, of a row, and of a mark in it
+_LINE = 0.17  # inches of a line of text
 _APART = 0.6  # of a row: over which the marks of its machines stand
 
 
 class Machine(NamedTuple):
-    """A machine by name, and by parameter the effects on each result of one per cent more of it."""
+    """A machine by name, and by parameter the effects on each result of one per cent more of it.
+
+    ``none`` says of each result why there may be no effects on it.
+    """
 
     name: str
     effects: Mapping[str, tuple[float | None, ...]]
+    none: tuple[str, ...] = ()
 
 
 @own_settings()
@@ -42,7 +47,9 @@ def draw_effects(
     table = {name: _effects(machines, name, len(results)) for name in names}
     rows = _rows(table)
     shown = [*rows][:_ROWS]
-    height = 1.7 + max(_ROW, _MARK * len(machines)) * max(len(shown), 4)
+    results = [f"{result}{_without(machines, k)}" for k, result in enumerate(results)]
+    notes = max(result.count("\n") for result in results) + title.count("\n")
+    height = 1.5 + _LINE * notes + max(_ROW, _MARK * len(machines)) * max(len(shown), 4)
     figure = Figure(figsize=(1.4 + _WIDTH * max(len(results), 1.6), height), layout="constrained")
     axes = figure.subplots(1, len(results), sharex=True, sharey=True, squeeze=False)[0]
     at = np.arange(len(shown))
@@ -75,6 +82,16 @@ def _frame(ax: Axes, names: Sequence[str]) -> None:
     ax.grid(axis="x", color="0.9")
     ax.set_axisbelow(True)
     ax.locator_params(axis="x", nbins=5)
+
+
+def _without(machines: Sequence[Machine], k: int) -> str:
+    """Lines that say which machines have no effects on a result, and why."""
+    reasons: dict[str, list[str]] = {}
+    for name, effects, none in machines:
+        if none and all(values[k] is None for values in effects.values()):
+            reasons.setdefault(none[k], []).append(short(name))
+    lines = [f"{', '.join(names)}: {reason}" for reason, names in reasons.items()]
+    return "".join(f"\n{row}" for line in lines for row in rows_of(line, _WIDTH))
 
 
 def _effects(machines: Sequence[Machine], name: str, results: int) -> Floats:

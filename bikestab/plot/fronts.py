@@ -46,7 +46,7 @@ def draw_fronts(machines: Sequence[tuple[str, Wanted, Best]], name: str = "") ->
     ax.axhline(0, color="k", lw=0.8, zorder=1)
     ax.set_xlabel(f"width of the stable interval up to {machines[0][1].V_max:g} m/s [m/s]  (wider →)")
     judged = where_judged(machines[0][1])
-    ax.set_ylabel(f"growth rate {judged} [s⁻¹]\n(↓ decays faster)")
+    ax.set_ylabel(f"growth rate [s⁻¹]  (↓ decays faster)\n{judged}")
     ax.set_xlim(left=0)
     ticks_inside(ax)
     label_curves(ax, curves)

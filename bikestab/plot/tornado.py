@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -18,7 +19,8 @@ from bikestab.units import BUILDERS, as_built
 
 _COLORS = ("#004488", "#DDAA33")  # Tol 2021, high contrast
 _LEAST, _SEEN = 0.005, 0.006  # %/%, and share of the largest: smaller bars are none to see
-_PANEL, _BAR, _ROW = 4.5, 0.24, 0.17  # inches: a panel's width, the height of a bar, and of a title's row
+_PANEL, _BAR, _ROW = 6.3, 0.24, 0.17  # inches: a panel's width, the height of a bar, and of a title's row
+_HIGHEST = 7.8  # inches: with a caption on a page of A4
 _FRONT = "measures of the front:"
 _WHITE = {"facecolor": "white", "edgecolor": "none", "pad": 1}
 _TITLE: dict[str, Any] = {"x": 1.0, "ha": "right", "multialignment": "center"}  # over the names too
@@ -57,40 +59,64 @@ def draw_tornado(title: Sequence[str], rows: Sequence[Row]) -> Figure:
         )
         for row in rows
     ]  # fmt: skip
-    panel = Panel(title, [bar for bar in bars if bar.value == 0 or _size(bar) > _LEAST], "no stable speed")
-    return draw_bars(panel, "% of the speed for 1 % more\nwider interval: V₁ ←, V₂ →", ("V₁", "V₂"), "m/s")
+    words = "% of the speed for 1 % more\nwider interval: V₁ ←, V₂ →"
+    return draw_bars(Panel(title, bars, "no stable speed"), words, ("V₁", "V₂"), "m/s", least=_LEAST)
 
 
 @own_settings()
-def draw_bars(panel: Panel, words: str, results: Sequence[str] = ("",), unit: str = "") -> Figure:
+def draw_bars(
+    panel: Panel, words: str, results: Sequence[str] = ("",), unit: str = "", *, least: float = 0.0
+) -> Figure:
     """One machine; ``words`` say what the bars measure, ``results`` of what each colour is, in this ``unit``.
 
-    Left out are parameters whose bars cannot be seen, and measures of the front that say what another does.
+    The title names parameters whose bars are smaller than ``least`` or cannot be seen. Left out are measures
+    of the front that say what another does, too.
     """
-    panel = panel._replace(bars=_shown(panel.bars))
+    shown = _shown(panel.bars, least)
+    left = _left_out(panel.bars, shown, "%" if len(results) > 1 else unit)
+    panel = panel._replace(bars=shown, title=[*panel.title, *left])
     figure = Figure(figsize=(_PANEL, 1.0), layout="constrained")
     ax = figure.add_subplot()
     bars = _draw(ax, panel, results, unit)
     ax.set_xlabel(words)
     first, *others = panel.title
     set_title(ax, first if panel.bars else f"{first}: {panel.none}", *others, **_TITLE)
-    figure.set_figheight(1.5 + _BAR * max(bars, 4) + _ROW * ax.get_title().count("\n"))
+    height = 1.5 + _BAR * max(bars, 4) + _ROW * ax.get_title().count("\n")
+    figure.set_figheight(min(height, _HIGHEST))
     seen = [any(bar.effects[i] for bar in panel.bars) for i in range(len(results))]
     handles = [Patch(color=c, label=r) for r, c, some in zip(results, _COLORS, seen, strict=False) if some]
     legend_below(figure, handles if len(results) > 1 else [])
     return figure
 
 
-def _shown(bars: Sequence[Bar]) -> list[Bar]:
-    least = _SEEN * max(map(_size, bars), default=0.0)
+def _shown(bars: Sequence[Bar], least: float) -> list[Bar]:
+    least = max(least, _SEEN * max(map(_size, bars), default=0.0))
     own = [
         bar for bar in bars if not bar.front and (_size(bar) > least or (bar.value == 0 and any(bar.slopes)))
     ]
     shown = own.copy()
     for bar in bars:
-        if bar.front and _size(bar) > least and not any(np.allclose(bar.effects, b.effects) for b in shown):
+        if bar.front and _size(bar) > least and not _said(bar, shown):
             shown.append(bar)
     return shown
+
+
+def _said(bar: Bar, others: Sequence[Bar]) -> bool:
+    return any(np.allclose(bar.effects, other.effects, atol=0) for other in others)
+
+
+def _left_out(bars: Sequence[Bar], shown: Sequence[Bar], unit: str) -> list[str]:
+    """A line of a title that names what has no bar, and how small its effects are."""
+    own = [bar for bar in bars if not bar.front]
+    left = [bar for bar in bars if bar not in shown and not (bar.front and _said(bar, own))]
+    if not left:
+        return []
+    largest = max(map(_size, left))
+    small = "without effect"
+    if largest:
+        digit = 10.0 ** math.floor(math.log10(largest))
+        small = f"each at most {math.ceil(largest / digit) * digit:.1g} {unit}".strip()
+    return [f"{len(left)} more, {small}: {', '.join(bar.name for bar in left)}"]
 
 
 def _draw(ax: Axes, panel: Panel, results: Sequence[str], unit: str) -> int:

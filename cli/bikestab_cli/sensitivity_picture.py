@@ -14,7 +14,7 @@ from bikestab_cli.several import told_apart
 if TYPE_CHECKING:
     from bikestab_cli.sensitivity_found import Found
 
-_LETTERS = 34  # beneath bars
+_LETTERS = 48  # beneath bars
 
 
 def draw(found: Sequence[Found], what: str, output: str) -> None:
@@ -35,16 +35,28 @@ def _side_by_side(found: Sequence[Found], what: str) -> Any:
     from bikestab.plot.effects import Machine, draw_effects
 
     common, names = told_apart([each.machine for each in found])
-    machines = [Machine(name, compared(each, what).effects) for name, each in zip(names, found, strict=True)]
+    machines = []
+    for name, each in zip(names, found, strict=True):
+        told, effects = compared(each, what)
+        none = ("stable from rest", "no upper limit") if effects and what == "speeds" else (told, told)
+        machines.append(Machine(name, effects, none))
     of, what_moves = MOVED[what](found[0].of, found[0].first) if what != "speeds" else None, "stable speeds"
     if of is None:
         results = ["V₁ [%]\nwider interval: ←", "V₂ [%]\nwider interval: →"]
     else:
         results = [f"change{of.unit and f' [{of.unit.strip()}]'}\n← better: {of.lower}"]
         what_moves = of.what
-    title = f"{what_moves}: change with 1 % more of a parameter"
-    title = f"{common}: {title}" if common else f"{title[0].upper()}{title[1:]}"
-    return draw_effects(machines, by_size([machine.effects for machine in machines]), title, results)
+    heading = f"{what_moves}: change with 1 % more of a parameter"
+    heading = f"{common}: {heading}" if common else f"{heading[0].upper()}{heading[1:]}"
+    heading += f"\n{_designs(found)}"
+    return draw_effects(machines, by_size([machine.effects for machine in machines]), heading, results)
+
+
+def _designs(found: Sequence[Found]) -> str:
+    """At which designs, and what is held."""
+    words = list(dict.fromkeys(title(each.of, "")[1] for each in found))
+    held = list(dict.fromkeys(each.rpartition(", ")[2] for each in words))
+    return words[0] if len(words) == 1 else f"each at its own design, {', '.join(held)}"
 
 
 def _speeds(found: Found) -> Any:
