@@ -50,7 +50,9 @@ def draw_compared(sides: Sequence[Side], regions: Sequence[Region]) -> Figure:
         _map(ax, regions[k], largest or 1.0)
         _label(ax, [sides[0], sides[k + 1]], regions[k].box, alone=len(drawn) == 1)
         words = f"stable regions differ in {100 * regions[k].share:.3g} % of their union"
-        words = f"A and {letter_of(k + 1)}: {words} over these axes and speed"
+        words = f"A and {letter_of(k + 1)}: {words}" + (
+            " over these axes and speed" if len(drawn) == 1 else ""
+        )
         set_title(ax, *([] if growth else [named[0][0], named[k + 1][0]]), words, panels=columns)
     if axes and largest:
         place: dict[str, Any] = {"location": "bottom", "aspect": 30}  # beside there may be the trail

@@ -284,7 +284,7 @@ def test_growth_rates_are_drawn_to_beyond_the_ends():
         assert growth.get_xlim() == (0, right)  # V2 = 6.02
         for ax, letter in zip(maps[:2], "BC", strict=True):
             title = " ".join(ax.get_title().replace("\N{NO-BREAK SPACE}", " ").split())
-            said = "stable regions differ in 0 % of their union over these axes and speed"
+            said = "stable regions differ in 0 % of their union"
             assert title == f"A and {letter}: {said}"
             assert "identical" in [text.get_text() for text in ax.texts]
 
