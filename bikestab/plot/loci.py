@@ -12,11 +12,12 @@ from matplotlib.figure import Figure
 from bikestab.model import ExactTable, exact_table
 from bikestab.modes import follow
 from bikestab.plot.arranged import arrange_plane
+from bikestab.plot.arrowheads import draw_arrowheads
 from bikestab.plot.axes import HALO
 from bikestab.plot.growth import Machine
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
-from bikestab.plot.locus import common_entries, draw_arrowheads, locus_axes, parts_of, sampled
+from bikestab.plot.locus import common_entries, locus_axes, parts_of, sampled
 from bikestab.plot.placing import Room, beside
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import Line, dark, lines_for

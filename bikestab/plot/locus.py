@@ -17,6 +17,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.model import ExactTable, Floats, Model, exact_table
 from bikestab.modes import Modes, follow
 from bikestab.plot.arranged import arrange_plane
+from bikestab.plot.arrowheads import draw_arrowheads
 from bikestab.plot.axes import HALO, remarks, ticks_inside
 from bikestab.plot.headings import set_title, short
 from bikestab.plot.lines import entry, legend_below
@@ -27,11 +28,7 @@ from bikestab.speeds import intervals_of
 
 _SAMPLES = 1201
 _MARKS = 11  # speeds that are written, at most
-_DOTS = 5.0  # points between dots of one curve, at least
-_ARROWS = 90.0  # points along a curve between its arrowheads, and twice as much as before the first
-_HEAD = 5.2  # of an arrowhead, which is as wide as it is long
-_AROUND = (2.0, 0.0)  # points free around it, if they are
-_SHORT = 24.0  # of a curve without one
+_DOTS = 6.5  # points between dots of one curve, at least
 _ABOVE = [(0, 1), (0, -1), (0.6, 1), (-0.6, 1), (0.6, -1), (-0.6, -1), (1, 1), (-1, 1)]  # of real ones
 _ALONG = (0, 0.6, -0.6, 1, -1)
 _LANE = 3.2  # points from the real axis to eigenvalues that would lie on others there
@@ -57,6 +54,8 @@ def draw_locus(
         for name, (color, width) in drawn.items()
     ]
     handles.append(entry("speed [m/s]", color="0.2", marker=".", ls="none"))
+    if ends := ends_within(table, start, stop):
+        handles.append(ring_entry())
     words = f"λ = {lam:.4g} rad, σ = {sigma:.4g}{remarks(bicycle, model)}; {_stable(table)}{left}"
     set_title(ax, f"{short(bicycle.name)}: root locus for {start:g} to {stop:g} m/s", words)
     arrange_plane(figure, ax, None, legend_below(figure, [*handles, *common_entries()], handlelength=2))
@@ -70,8 +69,22 @@ def draw_locus(
             transform=_shifted(ax, lane),
         )  # fmt: skip
         room.curve(s_part.real, s_part.imag + _in_data(ax, room, lane))
+    places, rings = [], []
+    for text, crossing in ends:
+        lane = 0.0 if crossing.imag else lanes.get("capsize", 0.0)
+        y = crossing.imag + _in_data(ax, room, lane)
+        for side in {y, y if not crossing.imag else -y}:
+            ax.plot(0, side, "o", ms=6, mfc="none", mec="k", mew=1.1, zorder=5)
+            room.mark(0, side, 7)
+            places.append(room.at(0, side)[0])
+        rings.append((text, y))
+    ringed = np.array(places)
     dots = _dots(ax, room, parts, lanes, start, stop)
+    places += [room.at(s.real, y)[0] + [0, lane] for _, s, lane in dots for y in {s.imag, -s.imag}]
     style: dict[str, Any] = {"size": 8, "path_effects": HALO, "zorder": 5}
+    for text, y in rings:
+        beside(room, ax, text, 0.0, y, away=(4.0, 7.0), marks=ringed, **style)
+    style["marks"] = np.array(places)
     for V_dot, s_dot, lane in dots:
         sides = _SIDES if s_dot.imag else _ABOVE if not lane else [(x, np.sign(lane)) for x in _ALONG]
         y = s_dot.imag + _in_data(ax, room, lane)
@@ -129,12 +142,12 @@ def locus_axes(ax: Axes, shown: Sequence[Modes], *, upper: bool = False) -> str:
     growth = [modes.eigenvalues.real.max(axis=0) for modes in shown]
     least = min(float(modes.eigenvalues.real.min()) for modes in shown)
     fastest = max(float(np.abs(modes.eigenvalues.imag).max()) for modes in shown)
-    left = max(
-        least, -(1 if upper else 3) * max(*(float(np.abs(rate).max()) for rate in growth), fastest, 1.0)
-    )
+    sizes = [float(np.abs(rate).max()) for rate in growth]
+    left = max(least, float(f"{-(1 if upper else 3) * max(*sizes, fastest, 1.0):.3g}"))
     right = max(*(float(rate.max()) for rate in growth), -0.1 * left)
     high = 1.08 * max(fastest, 0.2 * (right - left))
-    ax.set_xlim(left - 0.05 * (right - left), right + 0.08 * (right - left))
+    beyond = 0.05 * (right - left) if left <= least else 0.0  # the number that is told is the axis' end
+    ax.set_xlim(left - beyond, right + 0.08 * (right - left))
     ax.set_ylim(0 if upper else -high, high)
     ax.axvspan(ax.get_xlim()[0], 0, color=BAND, lw=0, zorder=0)
     ax.axvline(0, color="k", lw=0.8, zorder=1)
@@ -143,6 +156,24 @@ def locus_axes(ax: Axes, shown: Sequence[Modes], *, upper: bool = False) -> str:
     ax.set_ylabel("imaginary part [rad/s]")
     ticks_inside(ax)
     return "" if left <= least else f"; left of {left:.3g} not shown".replace("-", "−")
+
+
+def ends_within(table: ExactTable, start: float, stop: float) -> list[tuple[str, complex]]:
+    """The ends of stable speeds in a range: in words, and the eigenvalue that crosses, its upper one."""
+    found = intervals_of(table)
+    ends = []
+    for name, values in (("V₁", found.V1), ("V₂", found.V2)):
+        for V in values[: found.number].tolist():
+            if start < V < stop:
+                s = follow(table, V).eigenvalues[:, 0]
+                crossing = s[np.argmin(np.abs(s.real))]
+                ends.append((f"{name} {V:.3g}", complex(0.0, abs(crossing.imag))))
+    return ends
+
+
+def ring_entry() -> Any:
+    """What the legend says of the ends of stable speeds."""
+    return entry("V₁ or V₂ [m/s]", color="0.2", marker="o", mfc="none", ls="none")
 
 
 def common_entries() -> list[Any]:
@@ -201,39 +232,3 @@ def _dots(
             if s[k].imag >= 0:
                 dots.append((float(V), complex(s[k]), lane))
     return dots
-
-
-def draw_arrowheads(ax: Axes, room: Room, s: Any, lane: float = 0.0) -> None:
-    """Arrowheads along a curve, the way it goes as the speed grows, where they cover no dot and no number.
-
-    The curve is drawn ``lane`` points higher.
-    """
-    places = room.at(s.real, s.imag) + np.array([0.0, lane])
-    inside = np.all((places > 4) & (places < room.size - 4), axis=1)
-    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T) * (inside[1:]))])
-    if length[-1] < _SHORT:
-        return
-    number = max(round(length[-1] / _ARROWS), 1)
-    apart = length[-1] / number
-    for at in (np.arange(number) + 0.5) * apart:
-        ways = at + np.arange(-0.45 * apart, 0.45 * apart)
-        ways = ways[np.argsort(np.abs(ways - at))]  # the nearest first
-        tips, tails = (_along(places, length, way) for way in (ways, ways - _HEAD))
-        for around in _AROUND:
-            half = np.full(2, 0.5 * _HEAD + around)
-            free = np.flatnonzero(room.open((tips + tails) / 2, half))
-            if len(free):
-                _arrowhead(ax, tails[free[0]] / room.size, tips[free[0]] / room.size)
-                room.box((tips[free[0]] + tails[free[0]]) / 2, half)
-                break
-
-
-def _along(places: Floats, length: Floats, ways: Floats) -> Floats:
-    """Places on a curve after some ways along it [points]."""
-    return np.column_stack([np.interp(ways, length, part) for part in places.T])
-
-
-def _arrowhead(ax: Axes, tail: Floats, tip: Floats) -> None:
-    """An arrowhead between two shares of the axes."""
-    style = {"arrowstyle": "-|>", "color": "0.2", "lw": 0, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 13}
-    ax.annotate("", tuple(tip), tuple(tail), "axes fraction", "axes fraction", arrowprops=style, zorder=4)

@@ -22,6 +22,7 @@ AROUND: list[tuple[float, float]] = [
     (1, 0.5), (-1, 0.5), (1, -0.5), (-1, -0.5),
 ]  # fmt: skip
 _LEAST = (1.0, 0.6, 0.3, 0.0)  # of what is free around words, in halves of their sides
+_NEARER = 1.6  # times as near a mark as any other are words that are its own
 _STEP = 1.5  # of a curve's points, at most
 _ROW, _GAP = 0.62, 1.5  # half a line of text, in its size; around it
 
@@ -102,15 +103,18 @@ def half_size(text: str, size: float) -> Floats:
 
 def beside(
     room: Room, ax: Axes, text: str, x: float, y: float, *, size: float, away: Sequence[float] = (3.0,),
-    needed: bool = False, sides: Sequence[tuple[float, float]] = (*AROUND,), **style: Any
+    needed: bool = False, sides: Sequence[tuple[float, float]] = (*AROUND,), marks: Floats | None = None,
+    **style: Any
 ) -> Floats | None:  # fmt: skip
     """Write words ``away`` from a point of the data, on the first of ``sides`` where they cover nothing.
 
     Where there is no room they are not written, or, if ``needed``, where they cover little of a curve. The
-    place where they are.
+    place where they are. Of all ``marks``, places (n, 2), their own is the nearest by far.
     """
     half, point = half_size(text, size), room.at(x, y)[0]
     places = np.concatenate([point + np.array(sides) * (half + far) for far in away])
+    if marks is not None:
+        places = places[_nearest(places, point, marks, half) | _nearest(places, point, marks, 0 * half)]
     free = room.free(places, half)
     good = next(
         (np.flatnonzero(free >= least) for least in _LEAST if np.any(free >= least)), np.empty(0, int)
@@ -121,6 +125,14 @@ def beside(
     room.box(place, half)
     write(room, ax, text, place, size, **style)
     return place
+
+
+def _nearest(places: Floats, point: Floats, marks: Floats, half: Floats) -> NDArray[np.bool_]:
+    """Whether boxes around places (n, 2) are by far nearer to a point than to all other marks."""
+    others = marks[np.hypot(*(marks - point).T) > 0.1]
+    apart = np.maximum(np.abs(places[:, np.newaxis] - [point, *others]) - half + _GAP, 0.0)
+    away = np.hypot(*apart.T)
+    return np.asarray(away[1:].min(axis=0, initial=np.inf) > _NEARER * away[0])
 
 
 def write(room: Room, ax: Axes, text: str, place: Floats, size: float, **style: Any) -> None:

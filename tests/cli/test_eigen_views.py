@@ -423,7 +423,7 @@ def test_real_eigenvalues_that_would_lie_on_each_other_are_side_by_side():
     below = sorted(x for x, y in real if y < axis - 1)
     above = sorted(x for x, y in real if y > axis + 1)
     s = {V: np.sort(bs.eigenvalues(bike, float(V)).real) for V in range(11)}
-    capsize = sorted(s[V][1] for V in (0, 1, 2, 5, 6, 7, 8, 9, 10))
+    capsize = sorted(s[V][1] for V in (0, 1, 6, 7, 8, 9, 10))  # where dots stand apart
     assert all(min(abs(x - value) for x in below) < 0.1 for value in capsize)
     assert above == pytest.approx([s[1][0], s[0][0]], abs=0.1)
     numbers = {}
@@ -467,3 +467,43 @@ def test_a_machine_that_stands_leaves_no_rounding_on_the_road():
     ]
     assert road.get_xlim() == (-0.5, BIKE.c + 0.5)
     assert road.get_ylim() == (0.5, -0.5)
+
+
+@pytest.mark.parametrize("name", ["meijaard2007", "sharp1971", "kooijman2011"])
+@pytest.mark.parametrize("speeds", [(0, 10), (4, 6), (0, 60)])
+def test_a_speed_is_nearest_its_own_dot(name, speeds):
+    bike = bs.Bicycle.preset(name)
+    figure = draw_locus(bike, bike.lam, bike.sigma, *speeds)
+    figure.draw_without_rendering()
+    (ax,) = figure.axes
+    marks = [line for line in ax.lines if line.get_marker() in (".", "o")]
+    places = np.array([line.get_transform().transform(line.get_xydata()[0]) for line in marks])
+    s = [complex(*line.get_xydata()[0]) for line in marks]
+    texts = [text for text in ax.texts if text.get_text()[:1].isdigit()]
+    assert len(texts) >= 4
+    for text in texts:
+        box = text.get_window_extent()
+        middle, half = np.array([box.x0 + box.x1, box.y0 + box.y1]) / 2, np.array([box.width, box.height]) / 2
+        ways = [np.hypot(*np.maximum(np.abs(places - middle) - size, 0).T) for size in (half, 0 * half)]
+        first, second = (np.sort(away)[:2] for away in ways)  # from its edges, from its middle
+        assert first[1] >= 1.5 * first[0] or second[1] >= 1.5 * second[0]
+        nearest = np.argsort(ways[0] if first[1] >= 1.5 * first[0] else ways[1])
+        V = float(text.get_text())
+        own = bs.eigenvalues(bike, V)
+        assert np.abs(own - s[nearest[0]]).min() < 0.03 * max(np.abs(own).max(), 1)
+
+
+def test_the_ends_of_stable_speeds_are_marked_on_the_locus():
+    (ax,) = draw_locus(BIKE, BIKE.lam, BIKE.sigma, 0, 10).axes
+    rings = [tuple(line.get_xydata()[0]) for line in ax.lines if line.get_marker() == "o"]
+    weave = np.abs(bs.eigenvalues(BIKE, 4.292382536341).imag).max()
+    assert sorted(rings) == [pytest.approx((0, y), abs=1e-6) for y in (-weave, 0, weave)]
+    assert "V₁ 4.29" in [text.get_text() for text in ax.texts]
+
+
+@pytest.mark.parametrize("name", ["sharp1971", "kooijman2011"])
+def test_the_locus_ends_where_the_title_says(name):
+    bike = bs.Bicycle.preset(name)
+    (ax,) = draw_loci([("a", bike, bike.lam, bike.sigma, "refined")] * 2, 0, 14).axes
+    said = float(ax.get_title().split("left of ")[1].split()[0].replace("−", "-"))
+    assert ax.get_xlim()[0] == said
