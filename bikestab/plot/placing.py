@@ -22,7 +22,7 @@ AROUND: list[tuple[float, float]] = [
     (1, 0.5), (-1, 0.5), (1, -0.5), (-1, -0.5),
 ]  # fmt: skip
 _LEAST = (1.0, 0.6, 0.3, 0.0)  # of what is free around words, in halves of their sides
-_NEARER = 1.6  # times as near a mark as any other are words that are its own
+_NEARER = 1.9  # times as near a mark as any other are words that are its own
 _STEP = 1.5  # of a curve's points, at most
 _ROW, _GAP = 0.62, 1.5  # half a line of text, in its size; around it
 
