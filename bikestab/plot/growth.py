@@ -15,6 +15,7 @@ from bikestab.bicycle import Bicycle
 from bikestab.model import Floats, Model, exact_table
 from bikestab.plot.axes import LABELS, place_ticks, ticks_inside
 from bikestab.plot.headings import set_title, short
+from bikestab.plot.lines import entry, legend_below
 from bikestab.plot.settings import own_settings
 from bikestab.plot.sidelabels import Curve, label_curves, lines_for
 from bikestab.spectrum import growth_rate_of
@@ -23,6 +24,7 @@ from bikestab.speeds import intervals_of
 Machine = tuple[str, Bicycle, float, float, Model]  # name, machine, λ [rad], σ, and the equations
 _SAMPLES = 601
 _APART = 0.055  # of the axis: numbers beside it
+_NEAR = 0.015  # of the axis: between rings that would cover each other
 _THICK = "thick below zero: stable"
 _LINEAR = 1.0  # 1/s: below it the scale is linear, where stability is decided
 
@@ -43,7 +45,9 @@ def draw_growth(machines: Sequence[Machine], start: float, stop: float, name: st
     Raises InputError for more machines than there are lines that differ.
     """
     figure = Figure(figsize=(6.2, 4.4), layout="constrained")
-    growth_axes(figure.add_subplot(), machines, start, stop, name)
+    ax = figure.add_subplot()
+    growth_axes(ax, machines, start, stop, name)
+    _explain_rings(figure, ax, "V₁ or V₂")
     return figure
 
 
@@ -70,20 +74,32 @@ def draw_growth_against(machines: Sequence[tuple[str, Against]], label: str, nam
         place_ticks(ax.xaxis, "head_angle")
     what = f"largest real part of the eigenvalues{at}; {_THICK}"
     set_title(ax, f"{short(name)}: {what}" if name else f"{what[0].upper()}{what[1:]}")
+    _explain_rings(figure, ax, "stability begins or ends")
     return figure
+
+
+def _explain_rings(figure: Figure, ax: Axes, what: str) -> None:
+    if any(line.get_marker() == "o" for line in ax.lines):
+        legend_below(figure, [entry(what, color="0.2", marker="o", mfc="none", ls="none")])
 
 
 def draw_rates(ax: Axes, machines: Sequence[Rates], start: float, stop: float) -> None:
     """Growth rates from ``start`` to ``stop`` of the axis, thick where motion is stable."""
     lines = lines_for(len(machines))
     curves, low, high = [], 0.0, 0.0
+    ringed: list[float] = []
     for (name, x, rate, ends), line in zip(machines, lines, strict=True):
         shown = rate[np.isfinite(rate)]
         low, high = min(low, float(shown.min(initial=0))), max(high, float(shown.max(initial=0)))
         rate = np.where(np.isfinite(rate), rate, np.nan)
         for part, width in ((rate >= 0, 1.4), (rate <= 0, 3)):
             ax.plot(x, np.where(part, rate, np.nan), color=line.color, ls=line.ls, lw=width)
-        ax.plot(ends, np.zeros(len(ends)), "o", ms=5, mfc="white", mec=line.color, mew=1.4, zorder=4)
+        for end in ends:  # a ring around those of others
+            near = sum(abs(end - other) < _NEAR * (stop - start) for other in ringed)
+            ax.plot(
+                end, 0, "o", ms=5 + 5 * near, mfc="white", mec=line.color, mew=1.4, zorder=4 - 0.05 * near
+            )
+        ringed += [*ends]
         curves.append(Curve(name if len(shown) else f"{name}: infinite throughout", x, rate, line.color))
     ax.axhline(0, color="k", lw=0.8, zorder=1)
     ax.set_xlim(start, stop)

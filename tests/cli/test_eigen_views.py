@@ -507,3 +507,21 @@ def test_the_locus_ends_where_the_title_says(name):
     (ax,) = draw_loci([("a", bike, bike.lam, bike.sigma, "refined")] * 2, 0, 14).axes
     said = float(ax.get_title().split("left of ")[1].split()[0].replace("−", "-"))
     assert ax.get_xlim()[0] == said
+
+
+def test_real_eigenvalues_of_several_machines_are_solid_and_lie_in_lanes():
+    bike = bs.Bicycle.preset("kooijman2011")
+    own = ("b", bike, bike.lam, bike.sigma, "refined")
+    figure = draw_loci([("a", BIKE, BIKE.lam, BIKE.sigma, "refined"), own], 0, 10)
+    (ax,) = figure.axes
+    real = [line for line in ax.lines if len(line.get_xdata()) > 2 and max(line.get_ydata()) < 0]
+    assert {line.get_linestyle() for line in real} == {"-"}
+    second = [line for line in real if line.get_color() == real[-1].get_color()]
+    start, turn, stop = (float(np.sort(bs.eigenvalues(bike, V).real)[1]) for V in (0.0, 3.3, 10.0))
+    there = next(line for line in second if abs(line.get_xdata()[0] - start) < 1e-6)
+    back = next(line for line in second if abs(line.get_xdata()[-1] - stop) < 1e-6)
+    assert there.get_xdata()[-1] == pytest.approx(turn, abs=0.02) == back.get_xdata()[0]
+    assert there.get_ydata()[0] != back.get_ydata()[0]
+    heads = [text for text in ax.texts if not text.get_text()]
+    low = ax.transAxes.inverted().transform(ax.transData.transform((0, 0)))[1]
+    assert sum(head.xy[1] < low for head in heads) >= 5

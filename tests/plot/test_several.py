@@ -31,9 +31,13 @@ def names_in(figure):
 def test_growth_rates_have_a_curve_a_name_and_the_exact_ends():
     figure = draw_growth(presets("meijaard2007", "sharp1971", "kooijman2011"), 0, 10)
     assert names_in(figure) == ["meijaard2007", "sharp1971", "kooijman2011"]
-    dots = [line.get_xdata() for line in figure.axes[0].lines if line.get_marker() == "o"]
-    assert dots[0] == pytest.approx([4.292382536341, 6.024262015388], abs=1e-11)
-    assert len(dots[2]) == 1  # without an upper limit
+    rings = [line for line in figure.axes[0].lines if line.get_marker() == "o"]
+    dots = [line.get_xdata()[0] for line in rings]
+    assert dots[:2] == pytest.approx([4.292382536341, 6.024262015388], abs=1e-11)
+    assert len(dots) == 4  # two without an upper limit in the range
+    assert rings[2].get_markersize() > rings[1].get_markersize() + 2  # next to each other, both seen
+    assert rings[2].get_zorder() < rings[1].get_zorder()
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["V₁ or V₂"]
 
 
 def test_ends_over_a_range_and_as_bars():
