@@ -138,5 +138,5 @@ def test_words_stand_apart(bikestab, figures, command):
 def test_designs_in_one_place_have_one_mark(bikestab, figures):
     assert bikestab("compare", "meijaard2007", "meijaard2007", "-o", "a.png")[0] == 0
     _, plane = figures[0].axes  # without a colour bar: there is no difference
-    assert [text.get_text() for text in plane.texts] == ["A, B"]
+    assert [text.get_text() for text in plane.texts] == ["identical", "A, B"]
     assert len(plane.lines) == 1
