@@ -17,7 +17,7 @@ from bikestab.errors import BikestabError
 from bikestab.plot.modes import STYLES, draw_modes
 
 BENCHMARK = ("--bicycle", "meijaard2007")
-MISSING = "No such file or directory", "its folder is not there: 'mkdir -p missing' makes it"
+MISSING = "No such file or directory", "its folder is not there; make it: mkdir -p missing"
 
 
 RECUMBENT = """\
