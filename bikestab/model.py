@@ -21,7 +21,7 @@ from bikestab.letters import MODELS as MODELS
 from bikestab.letters import Model as Model
 from bikestab.letters import determinant, letters_of, unordered_letters_of
 from bikestab.rounding import ENTRY
-from bikestab.unordered import Unordered
+from bikestab.unordered import chosen
 
 if TYPE_CHECKING:
     from bikestab.machines import Machines
@@ -88,7 +88,7 @@ def exact_table(
         p4 = entries[4, 0]
         poor = abs(p4.value + p4.rest) < _POOR * p4.size
         if np.any(poor):
-            entries[4, 0] = _chosen(poor, determinant(letters), p4)
+            entries[4, 0] = chosen(poor, determinant(letters), p4)
         for (k, j), entry in entries.items():
             if shape and isinstance(entry.value, np.ndarray):
                 entry.put(table[0, k, j, some], table[1, k, j, some])
@@ -228,12 +228,6 @@ def _add_feedback(entries: dict[tuple[int, int], Any], n: SimpleNamespace, gains
         for (k, j), factor in (of_roll if roll else of_steer).items():
             key, term = (k + rate, j + power), factor * gain
             entries[key] = entries[key] + term if key in entries else term
-
-
-def _chosen(which: NDArray[np.bool_], a: Unordered, b: Unordered) -> Unordered:
-    return Unordered(
-        *(np.where(which, x, y) for x, y in ((a.value, b.value), (a.rest, b.rest), (a.size, b.size)))
-    )
 
 
 def canonical_matrices(

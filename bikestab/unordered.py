@@ -12,6 +12,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bikestab.twofold import Twofold, head_of, two_difference, two_sum
 
@@ -124,3 +125,10 @@ def _with(rest: Any, a: Any, b: Any) -> Any:
     if type(b) is float and not b:
         return rest if type(a) is float and not a else rest + a
     return rest + (b if type(a) is float and not a else a + b)
+
+
+def chosen(which: NDArray[np.bool_], a: Unordered, b: Unordered) -> Unordered:
+    """Those of ``a`` where ``which`` is true, and of ``b`` elsewhere."""
+    return Unordered(
+        *(np.where(which, x, y) for x, y in ((a.value, b.value), (a.rest, b.rest), (a.size, b.size)))
+    )

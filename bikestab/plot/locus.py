@@ -69,15 +69,7 @@ def draw_locus(
             transform=_shifted(ax, lane),
         )  # fmt: skip
         room.curve(s_part.real, s_part.imag + _in_data(ax, room, lane))
-    places, rings = [], []
-    for text, crossing in ends:
-        lane = 0.0 if crossing.imag else lanes.get("capsize", 0.0)
-        y = crossing.imag + _in_data(ax, room, lane)
-        for side in {y, y if not crossing.imag else -y}:
-            ax.plot(0, side, "o", ms=6, mfc="none", mec="k", mew=1.1, zorder=5)
-            room.mark(0, side, 7)
-            places.append(room.at(0, side)[0])
-        rings.append((text, y))
+    places, rings = _draw_rings(ax, room, ends, lanes)
     ringed = np.array(places)
     dots = _dots(ax, room, parts, lanes, start, stop)
     places += [room.at(s.real, y)[0] + [0, lane] for _, s, lane in dots for y in {s.imag, -s.imag}]
@@ -92,6 +84,22 @@ def draw_locus(
     for name, s_part, _ in parts:
         draw_arrowheads(ax, room, s_part, lanes.get(name, 0.0))
     return figure
+
+
+def _draw_rings(
+    ax: Axes, room: Room, ends: Sequence[tuple[str, complex]], lanes: dict[str, float]
+) -> tuple[list[Floats], list[tuple[str, float]]]:
+    """A ring at each eigenvalue where stability ends: their places, and the height of each end's name."""
+    places, rings = [], []
+    for text, crossing in ends:
+        lane = 0.0 if crossing.imag else lanes.get("capsize", 0.0)
+        y = crossing.imag + _in_data(ax, room, lane)
+        for side in {y, y if not crossing.imag else -y}:
+            ax.plot(0, side, "o", ms=6, mfc="none", mec="k", mew=1.1, zorder=5)
+            room.mark(0, side, 7)
+            places.append(room.at(0, side)[0])
+        rings.append((text, y))
+    return places, rings
 
 
 def _lanes(parts: Sequence[tuple[str, Any, Floats]], limits: tuple[float, float]) -> dict[str, float]:
